@@ -1,0 +1,56 @@
+#pragma once
+// What an analysis returns. Results know their axes, units, definition and error bars; they print themselves
+// as CSV and JSON; vis draws them.
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sandglass::analysis {
+
+struct Axis {
+  std::string name; ///< "r / d", "discharged mass"
+  std::string unit; ///< SI symbol, "" when dimensionless
+};
+
+/// One line of a Curve. `error` is a standard error of y, empty when there is none.
+struct Series {
+  std::string name;
+  std::vector<double> x, y, error;
+};
+
+/// A vertical or horizontal mark worth drawing: a first minimum, a fit's range, a reference value.
+struct Mark {
+  std::string label;
+  double position = 0;
+  bool vertical = true;
+};
+
+struct Curve {
+  std::string name;                 ///< file stem: "gr", "discharge"
+  std::string title;
+  std::string definition;           ///< one line: estimator, region, cut-off
+  Axis x, y;
+  std::vector<Series> series;
+  std::vector<Mark> marks;
+  std::size_t frames = 0;           ///< frames averaged
+  std::map<std::string, double> numbers;          ///< "rate", "rate_error_95", ...
+  std::map<std::string, std::string> provenance;
+};
+
+/// Rows of named columns; numbers only.
+struct Table {
+  std::string name, title, definition;
+  std::vector<Axis> columns;
+  std::vector<std::vector<double>> rows;
+  std::map<std::string, std::string> provenance;
+};
+
+/// CSV: a comment header (title, definition, frames, numbers, provenance), then x,y[,error] columns; series
+/// of unequal x follow each other with their name in the first column.
+std::string toCsv(const Curve& curve);
+std::string toJson(const Curve& curve);
+std::string toCsv(const Table& table);
+std::string toJson(const Table& table);
+
+} // namespace sandglass::analysis

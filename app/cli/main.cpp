@@ -1,0 +1,30 @@
+// sandglass: the command line. No Qt, no display.
+
+#include "app/cli/commands.h"
+#include "app/cli/console.h"
+#include "sim/base/error.h"
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) {
+  using namespace sandglass;
+  CLI::App app{"Granular flow: simulate, render, analyse."};
+  app.require_subcommand(1);
+  cli::Action action;
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  try {
+    return action();
+  } catch (const InputError& e) {
+    for (const auto& sentence : e.sentences()) std::fprintf(stderr, "sandglass: %s\n", sentence.c_str());
+    return 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "sandglass: %s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,89 @@
+#pragma once
+// What a solver publishes and everyone else reads. Mandatory: time, step, id, position. Everything else is
+// optional and asked for by name. Immutable once published, shared by pointer, the only thing that crosses
+// threads. Imported snapshots become Frames too.
+
+#include "sim/base/vec.h"
+#include "sim/walls/wall_shape.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sandglass {
+
+/// Names of the standard optional quantities (SI units).
+namespace quantity {
+inline constexpr const char* radius = "radius";     ///< scalar [m]
+inline constexpr const char* mass = "mass";         ///< scalar [kg]
+inline constexpr const char* species = "species";   ///< scalar, index into Frame::speciesNames
+inline constexpr const char* velocity = "velocity"; ///< vector [m/s]
+inline constexpr const char* spin = "spin";         ///< vector [rad/s]
+inline constexpr const char* force = "force";       ///< vector [N], all forces on the grain
+} // namespace quantity
+
+/// The space of the scene. Where `periodic[k]` is false, lower/upper merely bound what is there.
+struct Domain {
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero(); ///< [m]
+  std::array<bool, 3> periodic{false, false, false};
+};
+
+/// A wall as it stands at the time of the Frame.
+struct FrameWall {
+  std::string name;
+  std::shared_ptr<const WallShape> shape; ///< geometry at rest; never null
+  bool active = true;                     ///< false once a stage has removed it (an opened gate)
+  Vec3 velocity = Vec3::Zero();           ///< [m/s]
+  Vec3 force = Vec3::Zero();              ///< [N], force of the grains on the wall
+  Vec3 torque = Vec3::Zero();             ///< [N m] about the origin
+};
+
+/// A contact between grain `a` and grain `b` (or wall `wall` when b < 0).
+struct FrameContact {
+  std::int64_t a = -1, b = -1;            ///< grain ids
+  int wall = -1;                          ///< index into Frame::walls, or -1
+  std::array<int, 3> image{0, 0, 0};      ///< periodic image of b
+  Vec3 point = Vec3::Zero();              ///< [m]
+  Vec3 normal = Vec3::Zero();             ///< unit, from b (or wall) to a
+  Vec3 force = Vec3::Zero();              ///< [N] on a
+};
+
+struct Frame {
+  double time = 0;                          ///< [s]
+  std::int64_t step = 0;
+  std::string stage;                        ///< name of the stage it was taken in; may be empty
+  bool persistentIds = true;                ///< whether an id means the same grain in another frame
+  std::vector<std::int64_t> id;             ///< ascending for frames of our own solvers
+  std::vector<Vec3> position;               ///< [m]; inside the domain along periodic directions
+  std::map<std::string, std::vector<double>> scalars; ///< one value per grain each
+  std::map<std::string, std::vector<Vec3>> vectors;   ///< one vector per grain each
+  std::vector<std::string> speciesNames;
+  Domain domain;
+  std::vector<FrameWall> walls;
+  std::vector<FrameContact> contacts;       ///< empty unless asked for
+  std::map<std::string, std::string> provenance; ///< scene hash, version, seed, solver, accuracy, step size
+
+  std::size_t size() const { return position.size(); }
+  bool has(const std::string& name) const { return scalars.contains(name) || vectors.contains(name); }
+  /// Throw InputError (one sentence naming the quantity and those present) when it is not there.
+  const std::vector<double>& scalar(const std::string& name) const;
+  const std::vector<Vec3>& vector(const std::string& name) const;
+};
+
+using FramePtr = std::shared_ptr<const Frame>;
+
+/// One number per grain for colouring, selection and histograms: any scalar by name; for a vector `v` its
+/// magnitude `|v|` and components `v.x` `v.y` `v.z`; the shorthands `x` `y` `z` `speed` `id`.
+/// Throws InputError when the Frame does not have it.
+std::vector<double> grainScalar(const Frame& frame, const std::string& expression);
+
+/// Everything grainScalar() understands on this Frame, for menus and error messages.
+std::vector<std::string> grainScalarNames(const Frame& frame);
+
+/// SI unit of such a quantity as text ("m/s", "rad/s", "" when unknown or dimensionless).
+std::string unitOf(const std::string& expression);
+
+} // namespace sandglass

@@ -1,0 +1,50 @@
+#pragma once
+// The files of a run: scene.toml, frames/, series.csv, checkpoints/, log.txt, run.pvd.
+// A kill at any moment leaves every closed segment and a checkpoint readable.
+
+#include "sim/base/log.h"
+#include "sim/frame/frame.h"
+#include "sim/scene/scene.h"
+#include "sim/solvers/solver.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sandglass {
+
+/// Random access to the frames of one source (a run folder, a segment, later an imported file).
+class FrameSource {
+public:
+  virtual ~FrameSource() = default;
+  virtual std::size_t size() const = 0;
+  virtual double time(std::size_t index) const = 0; ///< [s]
+  virtual FramePtr load(std::size_t index) const = 0;
+  virtual std::string name() const = 0;             ///< path as the user gave it
+  /// Look for frames written since (a run still going); true when there are more.
+  virtual bool refresh() { return false; }
+};
+
+/// Opens a run folder or a single .vtkhdf segment. Throws InputError with a sentence.
+std::unique_ptr<FrameSource> openFrames(const std::filesystem::path& path);
+
+/// Writes segments: frames/00000.vtkhdf, ... VTKHDF PolyData with Steps. Temporary name, closed, synced,
+/// renamed. Segments close at 64 MB or 30 s of wall time.
+class FrameWriter {
+public:
+  virtual ~FrameWriter() = default;
+  virtual void write(const Frame& frame) = 0;
+  virtual void closeSegment() = 0; ///< everything written so far is safe afterwards
+};
+std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& runFolder, const Scene& scene);
+
+/// Atomic checkpoint files: last two alternating, spaced ones kept.
+void writeCheckpoint(const std::filesystem::path& file, const Solver::State& state);
+Solver::State readCheckpoint(const std::filesystem::path& file); ///< throws InputError when torn or foreign
+
+/// VTP and .pvd for readers older than VTK 9.3; any frames in, a folder or file out.
+void exportVtp(const Frame& frame, const std::filesystem::path& file);
+void exportPvd(FrameSource& frames, const std::filesystem::path& pvdFile, const Log& log = {});
+
+} // namespace sandglass

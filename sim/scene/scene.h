@@ -1,0 +1,140 @@
+#pragma once
+// The complete description of a run, resolved: units in SI, defaults filled in, references checked.
+// A value type. A scene plus a program version determines a run bit for bit.
+
+#include "sim/base/vec.h"
+#include "sim/frame/frame.h"
+#include "sim/scene/parameters.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sandglass {
+
+/// A kind from one of the registries together with its values.
+struct Choice {
+  std::string kind;
+  Parameters parameters;
+};
+
+struct Material {
+  std::string name;
+  double density = 0;               ///< [kg/m^3]; walls' materials need none (0)
+  std::optional<double> youngsModulus; ///< [Pa], needed by Hertzian laws
+  std::optional<double> poissonRatio;  ///< -1 < nu <= 0.5
+};
+
+/// How two materials touch. One per unordered pair of materials that can meet.
+struct ContactSpec {
+  std::string first, second;       ///< material names
+  Choice normal;                   ///< "linear", "hertz"
+  Choice tangential;               ///< "none", "spring", ... (kind "none" when the scene leaves it out)
+  Choice rolling;                  ///< "none", "elastic_plastic"
+  std::vector<Choice> gap;         ///< further laws (bridges, ...), usually empty
+};
+
+/// Diameters of a species; the registry of distributions is in sim/grains.
+struct Species {
+  std::string name;
+  std::string material;
+  Choice size;                     ///< "single", "uniform", "normal", "lognormal", "table"
+};
+
+struct WallSpec {
+  std::string name;
+  std::string material;
+  Choice shape;                    ///< a WallKind
+};
+
+/// One species' share of a filling.
+struct Share {
+  std::string species;
+  double fraction = 1;             ///< of number or mass, as FillSpec::byMass says; shares sum to 1
+};
+
+struct FillSpec {
+  Choice how;                      ///< "random", "rain", "lattice", "list"
+  std::vector<Share> mixture;      ///< empty for "list", whose rows name their species
+  bool byMass = false;
+  std::string stage;               ///< when it happens: name of a stage; the first by default
+};
+
+/// When a stage ends: at the first condition met.
+struct StageSpec {
+  std::string name;
+  std::vector<std::string> removeWalls;
+  std::optional<double> duration;             ///< [s] from the start of the stage
+  std::optional<double> settledKineticEnergy; ///< [J] per grain, mean; checked after `settledAfter`
+  double settledAfter = 0;                    ///< [s]
+  bool untilEmpty = false;                    ///< no grain left
+  std::optional<double> massDischarged;       ///< [kg]
+  std::optional<double> quietTime;            ///< [s] without any grain leaving
+};
+
+/// Grains beyond this plane (on the side its normal points to) leave the run and count as discharged.
+struct OutletSpec {
+  std::string name;
+  Vec3 point = Vec3::Zero(), normal = -Vec3::UnitY();
+};
+
+struct ProbeSpec {
+  std::string name;
+  Choice what;                     ///< "energies", "mass_in_region", "flow_rate", "wall_force"
+  double interval = 0;             ///< [s]
+};
+
+struct OutputSpec {
+  double frameInterval = 0;        ///< [s]; 0: no frames but the first and the last
+  double checkpointInterval = 0;   ///< [s] simulated; 0: chosen so that a run leaves 20
+  std::vector<std::string> quantities; ///< optional quantities to write
+  bool contacts = false;
+  bool singlePrecisionPositions = false;
+};
+
+/// The knobs that trade speed for accuracy.
+struct AccuracySpec {
+  std::string level = "standard";  ///< "draft", "standard", "reference"
+  double stepsPerContact = 0;      ///< steps in the shortest collision; > 0 after resolution
+  std::optional<double> timeStep;  ///< [s], when the scene fixes it
+  double skin = 0;                 ///< list skin as a share of the mean grain diameter
+  double maximumOverlap = 0;       ///< share of the smaller radius at which the run stops
+};
+
+struct Scene {
+  std::string title, description;
+  std::string file;                ///< where it came from; for messages only
+  std::uint64_t seed = 1;
+  std::string solver = "dem";
+  Vec3 gravity = Vec3(0, 0, -9.81); ///< [m/s^2]
+  Domain domain;
+  std::vector<Material> materials;
+  std::vector<ContactSpec> contacts;
+  std::vector<Species> species;
+  std::vector<WallSpec> walls;
+  std::vector<FillSpec> fills;
+  std::vector<OutletSpec> outlets;
+  std::vector<StageSpec> stages;
+  std::vector<ProbeSpec> probes;
+  OutputSpec output;
+  AccuracySpec accuracy;
+
+  const Material& material(const std::string& name) const;
+  const Species& speciesNamed(const std::string& name) const;
+  const ContactSpec& contact(const std::string& a, const std::string& b) const;
+};
+
+/// Reads and checks a scene. Throws InputError with every fault found.
+/// `overrides`: "key.path=value" as --set gives them, checked like the file itself.
+Scene readScene(const std::string& file, const std::vector<std::string>& overrides = {});
+Scene parseScene(const std::string& tomlText, const std::string& nameForMessages,
+                 const std::vector<std::string>& overrides = {}, const std::string& baseFolder = ".");
+
+/// The resolved scene as TOML: reading it again gives the same Scene.
+std::string writeScene(const Scene& scene);
+
+/// Hash of writeScene() without title and description: the scene's name in provenance.
+std::string sceneHash(const Scene& scene);
+
+} // namespace sandglass

@@ -1,0 +1,89 @@
+#pragma once
+// Advances a scene and publishes Frames. `dem` is the first; others come with the same interface.
+
+#include "sim/frame/frame.h"
+#include "sim/grains/seeding.h"
+#include "sim/scene/scene.h"
+
+#include <cstdint>
+#include <iosfwd>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sandglass {
+
+/// Energies by kind [J]; sums over all grains present, in id order.
+struct Energies {
+  double translational = 0, rotational = 0, gravitational = 0, elastic = 0;
+  double total() const { return translational + rotational + gravitational + elastic; }
+};
+
+/// Totals that only grow while a run goes on.
+struct Flow {
+  std::int64_t grainsEntered = 0, grainsDischarged = 0;
+  double massEntered = 0, massDischarged = 0; ///< [kg]
+  double lastDischarge = 0;                   ///< [s], time when a grain last left; 0 if none did
+};
+
+/// How the step was chosen, in words and numbers, for `explain`.
+struct StepChoice {
+  double step = 0;           ///< [s]
+  double shortestContact = 0;///< [s], collision time of the stiffest pair
+  double stableLimit = 0;    ///< [s]
+  std::string rule;          ///< one sentence
+};
+
+class Solver {
+public:
+  virtual ~Solver() = default;
+
+  /// Adds grains between steps.
+  virtual void add(const std::vector<GrainSeed>& grains) = 0;
+  virtual void removeWall(const std::string& name) = 0;
+
+  /// Runs `steps` steps. Throws RunError when the state turned bad (NaN, escape, overlap); then the state is
+  /// not to be used any more.
+  virtual void advance(std::int64_t steps) = 0;
+
+  virtual double time() const = 0;        ///< [s]
+  virtual std::int64_t step() const = 0;
+  virtual double stepSize() const = 0;    ///< [s]
+  virtual std::size_t grains() const = 0;
+  virtual std::int64_t nextId() const = 0;
+  virtual bool isFree(const Vec3& position, double radius) const = 0;
+
+  /// Velocities and positions at the same instant; quantities as the scene's output asks, radius always.
+  virtual FramePtr frame() const = 0;
+  virtual Energies energies() const = 0;
+  virtual const Flow& flow() const = 0;
+  virtual std::vector<GrainSeed> present() const = 0;
+  virtual std::vector<FrameWall> walls() const = 0; ///< with forces now
+
+  /// Everything that decides the future, bit for bit: a named set of byte arrays.
+  using State = std::map<std::string, std::vector<std::byte>>;
+  virtual State save() const = 0;
+  virtual void load(const State& state) = 0;
+};
+
+struct SolverOptions {
+  int threads = 0; ///< 0: all cores
+};
+
+/// Refusals, each a sentence; empty when the solver can run the scene.
+std::vector<std::string> solverRefusals(const Scene& scene);
+std::unique_ptr<Solver> makeSolver(const Scene& scene, const SolverOptions& options = {});
+
+/// What a run of the scene will model and cost, for `explain`.
+struct Forecast {
+  StepChoice step;
+  std::int64_t grains = 0;
+  double bytesPerGrain = 0;
+  double secondsPerGrainStep = 0;          ///< measured by a short trial on this machine, one thread
+  std::vector<std::string> modelled;       ///< one line each: feature, why, cost
+  std::vector<std::string> notModelled;    ///< features that cost nothing here
+};
+Forecast forecast(const Scene& scene);
+
+} // namespace sandglass

@@ -1,0 +1,82 @@
+#pragma once
+// One renderer for screen and file. Makes and owns its GL context on the thread that constructs it, and is to
+// be used and destroyed on that thread alone. No display, no Qt.
+
+#include "analysis/result.h"
+#include "sim/frame/frame.h"
+#include "vis/view.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sandglass::vis {
+
+/// RGBA, 8 bits, rows from the top.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+enum class GlBackend { automatic, osmesa, egl };
+
+struct PickResult {
+  std::int64_t grain = -1; ///< id, or -1
+  Vec3 point = Vec3::Zero();
+};
+
+class Renderer {
+public:
+  explicit Renderer(GlBackend backend = GlBackend::automatic);
+  ~Renderer();
+
+  /// Draws frame with view. The same frame, view and back end give the same pixels.
+  Image draw(const Frame& frame, const View& view);
+
+  /// Draws a chart with VTK charts.
+  Image draw(const analysis::Curve& curve, int width, int height);
+
+  /// The grain under a pixel of the last drawn frame, by the same clip planes as drawing.
+  PickResult pick(int x, int y) const;
+
+  /// The camera that the last draw() used, with presets resolved: what a mouse drag starts from.
+  Camera resolvedCamera() const;
+
+  std::string backendName() const; ///< "osmesa" or "egl" and the GL strings
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Camera moves for the mouse; angles in degrees.
+Camera orbit(const Camera& camera, double azimuth, double elevation);
+Camera zoom(const Camera& camera, double factor);
+Camera pan(const Camera& camera, double right, double up); ///< shares of the view height
+
+/// PNG with text chunks (tEXt/iTXt): provenance, view.
+void writePng(const Image& image, const std::filesystem::path& file, const std::map<std::string, std::string>& text);
+Image readPng(const std::filesystem::path& file, std::map<std::string, std::string>* text = nullptr);
+
+/// Share of pixels that differ by more than `perChannel` (0..255) in any channel; 1 when sizes differ.
+double difference(const Image& a, const Image& b, int perChannel = 8);
+
+/// Pipes frames to the ffmpeg program (H.264 MP4). Throws Error with a sentence when ffmpeg is missing.
+class Movie {
+public:
+  Movie(const std::filesystem::path& file, int width, int height, double framesPerSecond,
+        const std::map<std::string, std::string>& metadata);
+  ~Movie();
+  void add(const Image& image);
+  void close();
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace sandglass::vis
