@@ -19,7 +19,7 @@ enum class LawRole { normal, tangential, rolling, gap };
 struct LawKind {
   std::string name;
   LawRole role;
-  std::string description; ///< one phrase, for explain and the reference page
+  std::string description;      ///< one phrase, for explain and the reference page
   bool needsElasticity = false; ///< Young's modulus and Poisson ratio of both materials
   std::vector<ParameterSpec> parameters;
   std::function<std::unique_ptr<Law>(const LawContext&)> make;

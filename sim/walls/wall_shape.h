@@ -16,7 +16,7 @@ namespace sandglass {
 /// One place where a sphere is near a wall. `feature` names the face, edge or corner, so that a contact
 /// keeps its history while the grain stays on it.
 struct WallTouch {
-  double distance = 0;  ///< from sphere centre to the wall point, > 0 on the grain side [m]
+  double distance = 0;        ///< from sphere centre to the wall point, > 0 on the grain side [m]
   Vec3 normal = Vec3::Zero(); ///< unit, from the wall point to the sphere centre
   int feature = 0;
 };

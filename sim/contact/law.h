@@ -1,0 +1,59 @@
+#pragma once
+// A contact law: a pure function of geometry, relative motion and history, evaluated block by block.
+// To add one: a file in laws/ and a line in law_registry.cpp.
+
+#include "sim/contact/contact_block.h"
+#include "sim/contact/law_registry.h"
+#include "sim/scene/parameters.h"
+
+#include <string>
+#include <vector>
+
+namespace sandglass {
+
+/// What a law may know of a pair of materials.
+struct PairType {
+  bool used = false;                 ///< whether grains of the scene can meet so
+  Parameters parameters;             ///< of the law for this pair
+  double referenceMass = 0;          ///< [kg] reduced mass of the mean grains
+  double effectiveYoungsModulus = 0; ///< [Pa], 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; 0 when not given
+  double effectiveShearModulus = 0;  ///< [Pa], 1/G* = (2-nu1)/G1 + (2-nu2)/G2
+};
+
+struct LawContext {
+  std::vector<PairType> types;
+};
+
+/// Conserved quantities of the two grains of an event; pointers are null for a wall.
+struct EventGrains {
+  std::vector<double*> a, b; ///< in the order of Law::grainQuantities()
+};
+
+class Law {
+public:
+  virtual ~Law() = default;
+
+  /// Doubles of history per pair. All zero when the pair is born.
+  virtual int historySize() const { return 0; }
+  /// Largest gap at which the law can act [m]; 0 for laws that act in contact alone. Sizes lists.
+  virtual double range() const { return 0.0; }
+  /// Whether it reads the relative spin (wx, wy, wz), and whether it can turn grains at all.
+  virtual bool readsSpin() const { return false; }
+  virtual bool turnsGrains() const { return false; }
+  /// Names of per-grain conserved quantities (liquid, charge) that its events move.
+  virtual std::vector<std::string> grainQuantities() const { return {}; }
+
+  /// Adds its force for every contact of the block and updates its history, which is
+  /// block.history[firstHistory ... firstHistory + historySize() - 1]. Contacts with a gap are in the block
+  /// only when some law has a range; contact laws leave those without force and with zero history.
+  virtual void apply(ContactBlock& block, int firstHistory) const = 0;
+
+  /// Energy stored in contact c [J], for the energy balance. Reads geometry, stiffness and history.
+  virtual double storedEnergy(const ContactBlock& block, int c, int firstHistory) const { return 0.0; }
+
+  /// Called after the force loop, in pair order, for events that apply() raised and for live pairs that are
+  /// torn away (a grain leaves the run). May move grain quantities and set the pair's history.
+  virtual void onEvent(ContactEvent event, double* history, const EventGrains& grains) const {}
+};
+
+} // namespace sandglass

@@ -1,0 +1,21 @@
+#include "sim/contact/law_registry.h"
+
+#include "sim/contact/laws/laws.h"
+
+namespace sandglass {
+
+const std::vector<LawKind>& lawKinds() {
+  static const std::vector<LawKind> kinds{
+      linearNormalLaw(),      hertzNormalLaw(), noTangentialLaw(),          springTangentialLaw(),
+      mindlinTangentialLaw(), noRollingLaw(),   elasticPlasticRollingLaw(),
+  };
+  return kinds;
+}
+
+const LawKind* findLaw(LawRole role, const std::string& name) {
+  for (const LawKind& kind : lawKinds())
+    if (kind.role == role && kind.name == name) return &kind;
+  return nullptr;
+}
+
+} // namespace sandglass

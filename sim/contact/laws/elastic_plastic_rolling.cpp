@@ -1,0 +1,129 @@
+// Rolling resistance, elastic-plastic spring-dashpot (type C of Ai, Chen, Rotter, Ooi, Powder Technol. 206,
+// 269 (2011)): a couple M = -k_r theta - c_r w against the relative rolling angle theta, |k_r theta| <= l
+// F_n,
+//   k_r = 2.25 k_n l^2  (Jiang, Yu, Harris, Comput. Geotech. 32, 340 (2005)),
+// l the rolling length: given, or a coefficient times the effective radius. The dashpot acts while the couple
+// is below its limit. Rotation about the normal (torsion) is left free.
+
+#include "sim/base/error.h"
+#include "sim/contact/laws/laws.h"
+
+#include <cmath>
+
+namespace sandglass {
+
+namespace {
+
+class ElasticPlasticRolling final : public Law {
+public:
+  explicit ElasticPlasticRolling(const LawContext& context) {
+    for (const PairType& t : context.types) {
+      Constants c;
+      if (t.used) {
+        const bool given = t.parameters.has("length"), scaled = t.parameters.has("coefficient");
+        if (given == scaled)
+          throw InputError("rolling resistance needs either length or coefficient, and not both");
+        c.length = t.parameters.number("length", 0.0);
+        c.coefficient = t.parameters.number("coefficient", 0.0);
+        c.damping = t.parameters.number("damping");
+      }
+      table_.push_back(c);
+    }
+  }
+
+  int historySize() const override { return 3; }
+  bool readsSpin() const override { return true; }
+  bool turnsGrains() const override { return true; }
+
+  void apply(ContactBlock& b, int first) const override {
+    double *ax = b.history[first], *ay = b.history[first + 1], *az = b.history[first + 2];
+    for (int i = 0; i < b.size; ++i) {
+      const Constants& c = table_[b.type[i]];
+      const double twist = b.wx[i] * b.nx[i] + b.wy[i] * b.ny[i] + b.wz[i] * b.nz[i];
+      const double wx = b.wx[i] - twist * b.nx[i], wy = b.wy[i] - twist * b.ny[i],
+                   wz = b.wz[i] - twist * b.nz[i];
+      const double along = ax[i] * b.nx[i] + ay[i] * b.ny[i] + az[i] * b.nz[i];
+      double x = ax[i] - along * b.nx[i] + wx * b.dt, y = ay[i] - along * b.ny[i] + wy * b.dt,
+             z = az[i] - along * b.nz[i] + wz * b.dt;
+      const double length = c.length + c.coefficient * b.effectiveRadius[i];
+      const double k = 2.25 * b.stiffness[i] * length * length;
+      const double limit = length * b.contactForce[i];
+      const double elastic = k * std::sqrt(x * x + y * y + z * z);
+      const bool yields = elastic > limit;
+      const double scale = yields ? limit / elastic : 1.0;
+      x *= scale;
+      y *= scale;
+      z *= scale;
+      // Moment of inertia of the pair about the contact: 1/I = sum of 1/(7/5 m r^2).
+      const double inverseInertia = (b.inverseMassA[i] / (b.radiusA[i] * b.radiusA[i]) +
+                                     b.inverseMassB[i] / (b.radiusB[i] * b.radiusB[i])) /
+                                    1.4;
+      const double dashpot = yields ? 0.0 : 2.0 * c.damping * std::sqrt(k / inverseInertia);
+      const bool touches = b.overlap[i] > 0.0;
+      ax[i] = touches ? x : 0.0;
+      ay[i] = touches ? y : 0.0;
+      az[i] = touches ? z : 0.0;
+      b.mx[i] += touches ? -k * x - dashpot * wx : 0.0;
+      b.my[i] += touches ? -k * y - dashpot * wy : 0.0;
+      b.mz[i] += touches ? -k * z - dashpot * wz : 0.0;
+    }
+  }
+
+  double storedEnergy(const ContactBlock& b, int i, int first) const override {
+    const Constants& c = table_[b.type[i]];
+    const double length = c.length + c.coefficient * b.effectiveRadius[i];
+    double a2 = 0.0;
+    for (int k = 0; k < 3; ++k)
+      a2 += b.history[first + k][i] * b.history[first + k][i];
+    return 0.5 * 2.25 * b.stiffness[i] * length * length * a2;
+  }
+
+private:
+  struct Constants {
+    double length = 0, coefficient = 0, damping = 0;
+  };
+  std::vector<Constants> table_;
+};
+
+class NoRolling final : public Law {
+public:
+  void apply(ContactBlock&, int) const override {}
+};
+
+} // namespace
+
+LawKind noRollingLaw() {
+  return {"none", LawRole::rolling, "no rolling resistance", false, {}, [](const LawContext&) {
+            return std::make_unique<NoRolling>();
+          }};
+}
+
+LawKind elasticPlasticRollingLaw() {
+  ParameterSpec length{
+      "length", ParameterType::number, "m", "largest couple over normal force", {}, true, 0.0, 1e30, true};
+  ParameterSpec coefficient{"coefficient",
+                            ParameterType::number,
+                            "1",
+                            "the same as a share of the effective radius",
+                            {},
+                            true,
+                            0.0,
+                            10.0,
+                            true};
+  ParameterSpec damping{"damping",
+                        ParameterType::number,
+                        "1",
+                        "share of critical damping below the limit",
+                        ParameterValue(0.3),
+                        false,
+                        0.0,
+                        1.0};
+  return {"elastic_plastic",
+          LawRole::rolling,
+          "rolling spring and dashpot with a limit couple",
+          false,
+          {length, coefficient, damping},
+          [](const LawContext& c) { return std::make_unique<ElasticPlasticRolling>(c); }};
+}
+
+} // namespace sandglass

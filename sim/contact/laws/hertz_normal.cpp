@@ -1,0 +1,79 @@
+// Hertz contact with the damping of Tsuji, Tanaka, Ishida (Powder Technol. 71, 239 (1992)):
+//   F = 4/3 E* sqrt(R) overlap^(3/2) - 2 sqrt(5/6) beta sqrt(S m) v_n,  S = 2 E* sqrt(R overlap),
+// beta = -ln e / sqrt(ln^2 e + pi^2), which gives the same restitution e at every impact speed
+// (Antypov, Elliott, EPL 94, 50004 (2011)) as long as attraction while parting is not cut off.
+
+#include "sim/base/error.h"
+#include "sim/contact/laws/laws.h"
+#include "sim/contact/restitution.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandglass {
+
+namespace {
+
+class HertzNormal final : public Law {
+public:
+  explicit HertzNormal(const LawContext& context) {
+    for (const PairType& t : context.types) {
+      Constants c;
+      if (t.used) {
+        c.modulus = t.effectiveYoungsModulus;
+        c.clamp = t.parameters.boolean("clamp_attraction");
+        c.damping = 2.0 * std::sqrt(5.0 / 6.0) * dampingRatio(t.parameters.number("restitution"));
+      }
+      table_.push_back(c);
+    }
+  }
+
+  void apply(ContactBlock& b, int) const override {
+    for (int i = 0; i < b.size; ++i) {
+      const Constants& c = table_[b.type[i]];
+      const double x = std::max(b.overlap[i], 0.0);
+      const double S = 2.0 * c.modulus * std::sqrt(b.effectiveRadius[i] * x);
+      const double gamma = c.damping * std::sqrt(S * b.effectiveMass[i]);
+      double force = 2.0 / 3.0 * S * x - gamma * b.vn[i];
+      force = c.clamp ? std::max(force, 0.0) : force;
+      b.stiffness[i] = S;
+      b.damping[i] = gamma;
+      b.normalForce[i] += force;
+      b.contactForce[i] += std::max(force, 0.0);
+    }
+  }
+
+  double storedEnergy(const ContactBlock& b, int i, int) const override {
+    const double x = std::max(b.overlap[i], 0.0);
+    return 8.0 / 15.0 * table_[b.type[i]].modulus * std::sqrt(b.effectiveRadius[i] * x) * x * x;
+  }
+
+private:
+  struct Constants {
+    double modulus = 0, damping = 0;
+    bool clamp = false;
+  };
+  std::vector<Constants> table_;
+};
+
+} // namespace
+
+LawKind hertzNormalLaw() {
+  ParameterSpec e{"restitution",
+                  ParameterType::number,
+                  "1",
+                  "coefficient of restitution, the same at every speed",
+                  {},
+                  false,
+                  0.0,
+                  1.0,
+                  true};
+  ParameterSpec clamp{
+      "clamp_attraction", ParameterType::boolean, "1",
+      "cut the dashpot's attraction while parting; lowers nothing but the tail, raises restitution",
+      ParameterValue(false)};
+  return {"hertz", LawRole::normal, "Hertz spring with Tsuji's dashpot",
+          true,    {e, clamp},      [](const LawContext& c) { return std::make_unique<HertzNormal>(c); }};
+}
+
+} // namespace sandglass
