@@ -21,7 +21,7 @@ public:
   virtual std::size_t size() const = 0;
   virtual double time(std::size_t index) const = 0; ///< [s]
   virtual FramePtr load(std::size_t index) const = 0;
-  virtual std::string name() const = 0;             ///< path as the user gave it
+  virtual std::string name() const = 0; ///< path as the user gave it
   /// Look for frames written since (a run still going); true when there are more.
   virtual bool refresh() { return false; }
 };

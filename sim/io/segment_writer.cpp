@@ -1,0 +1,290 @@
+#include "sim/base/error.h"
+#include "sim/io/frame_segment.h"
+#include "sim/io/hdf5.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+
+namespace sandglass {
+
+using namespace hdf5;
+
+namespace {
+
+constexpr hsize_t grainRows = 8192; ///< a chunk: 192 kB of positions, small beside HDF5's chunk cache
+constexpr hsize_t stepRows = 64;
+constexpr std::array<const char*, 4> cellKinds{"Vertices", "Lines", "Polygons", "Strips"};
+
+/// Everything that must not change within one file.
+struct Signature {
+  std::vector<std::string> scalars, vectors, walls, species;
+  std::map<std::string, std::string> provenance;
+  std::array<bool, 3> periodic;
+  bool persistentIds;
+
+  explicit Signature(const Frame& frame)
+      : species(frame.speciesNames), provenance(frame.provenance), periodic(frame.domain.periodic),
+        persistentIds(frame.persistentIds) {
+    for (const auto& [name, values] : frame.scalars)
+      scalars.push_back(name);
+    for (const auto& [name, values] : frame.vectors)
+      vectors.push_back(name);
+    for (const auto& wall : frame.walls)
+      walls.push_back(wall.name);
+  }
+  bool operator==(const Signature&) const = default;
+};
+
+std::vector<std::int64_t> countUp(std::int64_t n) {
+  std::vector<std::int64_t> numbers(n);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+} // namespace
+
+struct SegmentWriter::Impl {
+  std::filesystem::path path;
+  Signature signature;
+  Handle file, vtk, steps, own, ownSteps;
+  Column points, partPoints, times, partOffsets, partCounts, pointOffsets, cellOffsets, connectivityOffsets;
+  struct Cells {
+    Column counts, connectivityCounts, offsets, connectivity;
+  };
+  std::array<Cells, 4> cells;
+  std::map<std::string, Column> data, dataOffsets;
+  Column step, stage, lower, upper, contactCount, wallActive, wallVelocity, wallForce, wallTorque;
+  Handle contactGroup;
+  std::map<std::string, Column> contacts;
+  std::vector<std::string> stageNames; ///< written at the end, when all are known
+  std::int64_t count = 0;
+
+  Impl(const std::filesystem::path& p, const Frame& first) : path(p), signature(first) {}
+
+  /// HDF5 closes a file with its last object: all others first, so that a fault shows when the file closes.
+  void closeAll() {
+    Handle last = std::move(file);
+    *this = Impl(path, Frame{});
+    last.close();
+  }
+
+  void create(const std::string& sceneText, bool single) {
+    file = createFile(path);
+    vtk = createGroup(file, "VTKHDF");
+    writeAttribute(vtk, "Version", {2, 0}, false);
+    writeAttribute(vtk, "Type", "PolyData");
+    points = Column(vtk, "Points", single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE, {3}, grainRows);
+    partPoints = Column(vtk, "NumberOfPoints", H5T_NATIVE_INT64, {}, stepRows);
+    for (std::size_t k = 0; k < cellKinds.size(); ++k) {
+      const Handle group = createGroup(vtk, cellKinds[k]);
+      cells[k].counts = Column(group, "NumberOfCells", H5T_NATIVE_INT64, {}, stepRows);
+      cells[k].connectivityCounts = Column(group, "NumberOfConnectivityIds", H5T_NATIVE_INT64, {}, stepRows);
+      cells[k].offsets = Column(group, "Offsets", H5T_NATIVE_INT64, {}, k == 0 ? grainRows : stepRows);
+      cells[k].connectivity =
+          Column(group, "Connectivity", H5T_NATIVE_INT64, {}, k == 0 ? grainRows : stepRows);
+    }
+    steps = createGroup(vtk, "Steps");
+    times = Column(steps, "Values", H5T_NATIVE_DOUBLE, {}, stepRows);
+    partOffsets = Column(steps, "PartOffsets", H5T_NATIVE_INT64, {}, stepRows);
+    partCounts = Column(steps, "NumberOfParts", H5T_NATIVE_INT64, {}, stepRows);
+    pointOffsets = Column(steps, "PointOffsets", H5T_NATIVE_INT64, {}, stepRows);
+    cellOffsets = Column(steps, "CellOffsets", H5T_NATIVE_INT64, {4}, stepRows);
+    connectivityOffsets = Column(steps, "ConnectivityIdOffsets", H5T_NATIVE_INT64, {4}, stepRows);
+    createPointData();
+    createOwn(sceneText);
+  }
+
+  void createPointData() {
+    const Handle pointData = createGroup(vtk, "PointData");
+    const Handle offsets = createGroup(steps, "PointDataOffsets");
+    const auto add = [&](const std::string& name, hid_t type, std::vector<hsize_t> tail) {
+      data[name] = Column(pointData, name, type, std::move(tail), grainRows);
+      dataOffsets[name] = Column(offsets, name, H5T_NATIVE_INT64, {}, stepRows);
+    };
+    add("id", H5T_NATIVE_INT64, {});
+    for (const auto& name : signature.scalars)
+      add(name, H5T_NATIVE_DOUBLE, {});
+    for (const auto& name : signature.vectors)
+      add(name, H5T_NATIVE_DOUBLE, {3});
+  }
+
+  void createOwn(const std::string& sceneText) {
+    own = createGroup(file, "Sandglass");
+    writeAttribute(own, "formatVersion", std::vector<std::int64_t>{1}, true);
+    writeAttribute(own, "persistentIds", std::vector<std::int64_t>{signature.persistentIds}, true);
+    const auto& periodic = signature.periodic;
+    writeAttribute(own, "periodic", std::vector<std::int64_t>{periodic[0], periodic[1], periodic[2]}, false);
+    writeTextDataset(own, "scene", sceneText);
+    writeTexts(own, "wallNames", signature.walls);
+    writeTexts(own, "speciesNames", signature.species);
+    const Handle provenance = createGroup(own, "provenance");
+    for (const auto& [key, value] : signature.provenance)
+      writeAttribute(provenance, key, value);
+
+    ownSteps = createGroup(own, "Steps");
+    step = Column(ownSteps, "step", H5T_NATIVE_INT64, {}, stepRows);
+    stage = Column(ownSteps, "stage", H5T_NATIVE_INT32, {}, stepRows);
+    lower = Column(ownSteps, "domainLower", H5T_NATIVE_DOUBLE, {3}, stepRows);
+    upper = Column(ownSteps, "domainUpper", H5T_NATIVE_DOUBLE, {3}, stepRows);
+    contactCount = Column(ownSteps, "contactCount", H5T_NATIVE_INT64, {}, stepRows);
+    const hsize_t n = signature.walls.size();
+    if (n == 0) return; // HDF5 has no chunks of zero width
+    wallActive = Column(ownSteps, "wallActive", H5T_NATIVE_UINT8, {n}, stepRows);
+    wallVelocity = Column(ownSteps, "wallVelocity", H5T_NATIVE_DOUBLE, {n, 3}, stepRows);
+    wallForce = Column(ownSteps, "wallForce", H5T_NATIVE_DOUBLE, {n, 3}, stepRows);
+    wallTorque = Column(ownSteps, "wallTorque", H5T_NATIVE_DOUBLE, {n, 3}, stepRows);
+  }
+
+  void appendVtk(const Frame& frame) {
+    const std::int64_t n = static_cast<std::int64_t>(frame.size()), one = 1, none = 0;
+    const std::int64_t firstPoint = static_cast<std::int64_t>(points.rows());
+    times.append(&frame.time, 1);
+    partOffsets.append(&count, 1);
+    partCounts.append(&one, 1);
+    pointOffsets.append(&firstPoint, 1);
+    // Readers add the number of parts before this one to a cell offset, since each part's list of offsets is
+    // one longer than its cells: these count cells, not entries of the list.
+    const std::array<std::int64_t, 4> offsets{firstPoint, 0, 0, 0};
+    cellOffsets.append(offsets.data(), 1);
+    connectivityOffsets.append(offsets.data(), 1);
+    points.append(n > 0 ? frame.position.front().data() : nullptr, n);
+    partPoints.append(&n, 1);
+    const auto upTo = countUp(n + 1);
+    cells[0].counts.append(&n, 1);
+    cells[0].connectivityCounts.append(&n, 1);
+    cells[0].offsets.append(upTo.data(), n + 1);
+    cells[0].connectivity.append(upTo.data(), n);
+    for (int k = 1; k < 4; ++k) {
+      cells[k].counts.append(&none, 1);
+      cells[k].connectivityCounts.append(&none, 1);
+      cells[k].offsets.append(&none, 1);
+    }
+    for (auto& [name, column] : dataOffsets)
+      column.append(&firstPoint, 1);
+    data.at("id").append(frame.id.data(), n);
+    for (const auto& [name, values] : frame.scalars)
+      data.at(name).append(values.data(), n);
+    for (const auto& [name, values] : frame.vectors)
+      data.at(name).append(n > 0 ? values.front().data() : nullptr, n);
+  }
+
+  void appendOwn(const Frame& frame) {
+    step.append(&frame.step, 1);
+    const auto known = std::find(stageNames.begin(), stageNames.end(), frame.stage);
+    const auto stageIndex = static_cast<std::int32_t>(known - stageNames.begin());
+    if (known == stageNames.end()) stageNames.push_back(frame.stage);
+    stage.append(&stageIndex, 1);
+    lower.append(frame.domain.lower.data(), 1);
+    upper.append(frame.domain.upper.data(), 1);
+    const auto contactsNow = static_cast<std::int64_t>(frame.contacts.size());
+    contactCount.append(&contactsNow, 1);
+    if (!frame.walls.empty()) {
+      std::vector<std::uint8_t> active;
+      std::vector<double> velocity, force, torque;
+      const auto put = [](std::vector<double>& list, const Vec3& v) {
+        list.insert(list.end(), v.data(), v.data() + 3);
+      };
+      for (const auto& wall : frame.walls) {
+        active.push_back(wall.active);
+        put(velocity, wall.velocity);
+        put(force, wall.force);
+        put(torque, wall.torque);
+      }
+      wallActive.append(active.data(), 1);
+      wallVelocity.append(velocity.data(), 1);
+      wallForce.append(force.data(), 1);
+      wallTorque.append(torque.data(), 1);
+    }
+    if (contactsNow > 0) appendContacts(frame.contacts);
+  }
+
+  void appendContacts(const std::vector<FrameContact>& list) {
+    if (contacts.empty()) {
+      contactGroup = createGroup(own, "Contacts");
+      for (const char* name : {"a", "b"})
+        contacts[name] = Column(contactGroup, name, H5T_NATIVE_INT64, {}, grainRows);
+      contacts["wall"] = Column(contactGroup, "wall", H5T_NATIVE_INT32, {}, grainRows);
+      contacts["image"] = Column(contactGroup, "image", H5T_NATIVE_INT32, {3}, grainRows);
+      for (const char* name : {"point", "normal", "force"})
+        contacts[name] = Column(contactGroup, name, H5T_NATIVE_DOUBLE, {3}, grainRows);
+    }
+    const auto gather = [&](const std::string& name, auto value) {
+      std::vector<decltype(value(list.front()))> rows;
+      rows.reserve(list.size());
+      for (const auto& contact : list)
+        rows.push_back(value(contact));
+      return rows;
+    };
+    const auto a = gather("a", [](const FrameContact& c) { return c.a; });
+    const auto b = gather("b", [](const FrameContact& c) { return c.b; });
+    const auto wall = gather("wall", [](const FrameContact& c) { return static_cast<std::int32_t>(c.wall); });
+    const auto image = gather("image", [](const FrameContact& c) { return c.image; });
+    contacts["a"].append(a.data(), a.size());
+    contacts["b"].append(b.data(), b.size());
+    contacts["wall"].append(wall.data(), wall.size());
+    contacts["image"].append(image.front().data(), image.size());
+    const auto appendVectors = [&](const std::string& name, Vec3 FrameContact::*member) {
+      const auto rows = gather(name, [member](const FrameContact& c) { return c.*member; });
+      contacts[name].append(rows.front().data(), rows.size());
+    };
+    appendVectors("point", &FrameContact::point);
+    appendVectors("normal", &FrameContact::normal);
+    appendVectors("force", &FrameContact::force);
+  }
+};
+
+SegmentWriter::SegmentWriter(const std::filesystem::path& file, const std::string& sceneText,
+                             const Frame& first, bool singlePrecisionPositions)
+    : impl_(std::make_unique<Impl>(file, first)) {
+  const Session session;
+  try {
+    impl_->create(sceneText, singlePrecisionPositions);
+  } catch (const Failure& failure) {
+    throw RunError(fmt::format("{}: {}; check the folder and the free space", file.string(), failure.what()));
+  }
+}
+
+SegmentWriter::~SegmentWriter() {
+  const Session session;
+  impl_.reset();
+}
+
+bool SegmentWriter::accepts(const Frame& frame) const {
+  return Signature(frame) == impl_->signature;
+}
+
+void SegmentWriter::append(const Frame& frame) {
+  const Session session;
+  try {
+    impl_->appendVtk(frame);
+    impl_->appendOwn(frame);
+    ++impl_->count;
+  } catch (const Failure& failure) {
+    throw RunError(fmt::format("{}: {}", impl_->path.string(), failure.what()));
+  }
+}
+
+void SegmentWriter::close() {
+  const Session session;
+  try {
+    writeAttribute(impl_->steps, "NSteps", std::vector<std::int64_t>{impl_->count}, true);
+    writeTexts(impl_->own, "stageNames", impl_->stageNames);
+    if (H5Fflush(impl_->file, H5F_SCOPE_LOCAL) < 0)
+      throw Failure("cannot finish writing (is the disk full?)");
+    impl_->closeAll();
+  } catch (const Failure& failure) {
+    throw RunError(fmt::format("{}: {}", impl_->path.string(), failure.what()));
+  }
+}
+
+std::uint64_t SegmentWriter::bytes() const {
+  const Session session;
+  hsize_t size = 0;
+  return impl_->file >= 0 && H5Fget_filesize(impl_->file, &size) >= 0 ? size : 0;
+}
+
+} // namespace sandglass
