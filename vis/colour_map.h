@@ -1,0 +1,37 @@
+#pragma once
+// Colour maps. Sequential ones rise evenly in lightness, so that equal steps of a quantity look equal and the
+// map survives grey printing and colour-blind eyes.
+//   viridis, inferno  Smith and van der Walt 2015 (CC0), ten stops each
+//   cividis           Nunez, Anderton, Renslow 2018, doi:10.1371/journal.pone.0199239, ten stops
+//   dune              our own: L* from 20 to 92 from night blue over teal to sand
+//   grey              L* from 15 to 95
+//   coolwarm          diverging, Moreland 2009, doi:10.1007/978-3-642-10520-3_9
+//   discrete          eight colours, Okabe and Ito 2008, for species and other counted things
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sandglass::vis {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+class ColourMap {
+public:
+  /// Throws InputError naming the maps there are.
+  explicit ColourMap(const std::string& name);
+
+  /// Colour of a share of the range, clamped to 0..1; NaN is grey. A discrete map takes its first colours
+  /// for the first eighths of the range.
+  Rgb at(double share) const;
+
+  /// Colour of a counted thing: the discrete map repeats after eight, others are sampled at eight places.
+  Rgb ofIndex(long index) const;
+
+private:
+  std::vector<Rgb> table_;
+  bool discrete_ = false;
+};
+
+} // namespace sandglass::vis

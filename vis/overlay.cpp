@@ -1,0 +1,188 @@
+#include "vis/overlay.h"
+
+#include "vis/text_style.h"
+#include "vis/ticks.h"
+
+#include <vtkBrush.h>
+#include <vtkContext2D.h>
+#include <vtkObjectFactory.h>
+#include <vtkPen.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandglass::vis {
+
+namespace {
+
+// Lengths in pixels of a picture 720 high; everything scales with the picture.
+constexpr float margin = 26, titleSize = 19, textSize = 15, barWidth = 18, legendSpace = 128;
+constexpr float axesArm = 30, axesSpace = 88, topSpace = 58;
+
+enum class Side { left, centre, right };
+
+float scaleOf(const OverlayContent& c) {
+  return std::max(0.4F, std::min(static_cast<float>(c.width) / 1280, static_cast<float>(c.height) / 720));
+}
+
+void write(vtkContext2D* painter, const OverlayContent& c, float x, float y, const std::string& text,
+           float size, Side side, bool bold = false, double strength = 0.85) {
+  const auto ink = inkOn(c.background, strength);
+  vtkTextProperty* style = painter->GetTextProp();
+  setFont(style, static_cast<int>(std::lround(size * scaleOf(c))), bold);
+  style->SetColor(ink[0], ink[1], ink[2]);
+  style->SetOpacity(1);
+  style->SetOrientation(0);
+  style->SetVerticalJustificationToCentered();
+  if (side == Side::left)
+    style->SetJustificationToLeft();
+  else if (side == Side::right)
+    style->SetJustificationToRight();
+  else
+    style->SetJustificationToCentered();
+  painter->DrawString(std::round(x), std::round(y), text.c_str());
+}
+
+float textWidth(vtkContext2D* painter, const OverlayContent& c, const std::string& text, float size) {
+  setFont(painter->GetTextProp(), static_cast<int>(std::lround(size * scaleOf(c))));
+  float bounds[4]{};
+  painter->ComputeStringBounds(text.c_str(), bounds);
+  return bounds[2];
+}
+
+void setPen(vtkContext2D* painter, const std::array<double, 3>& colour, float width) {
+  painter->GetPen()->SetColorF(colour[0], colour[1], colour[2]);
+  painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  painter->GetPen()->SetWidth(width);
+}
+
+void fill(vtkContext2D* painter, const std::array<double, 3>& colour, float x, float y, float w, float h) {
+  painter->GetPen()->SetLineType(vtkPen::NO_PEN);
+  painter->GetBrush()->SetColorF(colour[0], colour[1], colour[2]);
+  painter->DrawRect(x, y, w, h);
+}
+
+std::array<double, 3> toUnit(const Rgb& c) {
+  return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
+}
+
+} // namespace
+
+vtkStandardNewMacro(Overlay);
+
+Frameable freeArea(const OverlayContent& c) {
+  const float s = scaleOf(c), w = static_cast<float>(c.width), h = static_cast<float>(c.height);
+  Frameable area;
+  area.left = margin * s / w;
+  area.right = 1 - (c.legend ? legendSpace : margin) * s / w;
+  area.top = (c.title.empty() && c.time.empty() ? margin : topSpace) * s / h;
+  area.bottom = 1 - (c.axes || c.metresPerPixel > 0 ? axesSpace : margin) * s / h;
+  return area;
+}
+
+float Overlay::scale() const {
+  return scaleOf(content);
+}
+
+bool Overlay::Paint(vtkContext2D* painter) {
+  const float s = scale(), w = static_cast<float>(content.width), h = static_cast<float>(content.height);
+  const float top = h - (margin + titleSize / 2) * s;
+  if (!content.title.empty())
+    write(painter, content, margin * s, top, content.title, titleSize, Side::left, true);
+  if (!content.time.empty())
+    write(painter, content, w - margin * s, top, content.time, textSize + 1, Side::right);
+  if (content.legend) {
+    if (content.legend->entries.empty())
+      paintLegend(painter, *content.legend);
+    else
+      paintEntries(painter, *content.legend);
+  }
+  if (content.axes) paintAxes(painter, *content.axes);
+  if (content.metresPerPixel > 0) paintScaleBar(painter);
+  return true;
+}
+
+void Overlay::paintLegend(vtkContext2D* painter, const Legend& legend) const {
+  const float s = scale(), w = static_cast<float>(content.width), h = static_cast<float>(content.height);
+  const float right = w - margin * s, left = std::round(w - (legendSpace - margin) * s);
+  const float height = std::round(0.5F * h), bottom = std::round(0.5F * (h - height)),
+              wide = std::round(barWidth * s);
+  const int rows = static_cast<int>(height);
+  for (int row = 0; row < rows; ++row)
+    fill(painter, toUnit(legend.map.at((row + 0.5) / rows)), left, bottom + static_cast<float>(row), wide, 1);
+
+  const Ticks ticks = niceTicks(legend.low, legend.high, 6);
+  const bool empty = !(legend.high > legend.low);
+  for (std::size_t k = 0; k < ticks.values.size(); ++k) {
+    const double share = empty ? 0.5 : (ticks.values[k] - legend.low) / (legend.high - legend.low);
+    const float y = std::round(bottom + static_cast<float>(share) * (height - 1));
+    fill(painter, inkOn(content.background, 0.6), left + wide, y, std::round(5 * s),
+         std::max(1.0F, std::round(s)));
+    write(painter, content, left + wide + 9 * s, y, ticks.labels[k], textSize, Side::left);
+  }
+  const std::string title = axisTitle(legend.name, legend.unit, ticks.exponent);
+  const float y = bottom + height + 22 * s;
+  if (left + textWidth(painter, content, title, textSize) < right)
+    write(painter, content, left, y, title, textSize, Side::left);
+  else
+    write(painter, content, right, y, title, textSize, Side::right);
+}
+
+void Overlay::paintEntries(vtkContext2D* painter, const Legend& legend) const {
+  const float s = scale(), w = static_cast<float>(content.width), h = static_cast<float>(content.height);
+  const float left = std::round(w - (legendSpace - margin) * s), line = 24 * s, side = std::round(14 * s);
+  float y = 0.5F * h + 0.5F * line * static_cast<float>(legend.entries.size());
+  write(painter, content, left, y + line, legend.name, textSize, Side::left);
+  for (std::size_t k = 0; k < legend.entries.size(); ++k, y -= line) {
+    fill(painter, toUnit(legend.map.ofIndex(static_cast<long>(k))), left, std::round(y - side / 2), side,
+         side);
+    write(painter, content, left + side + 8 * s, y, legend.entries[k], textSize, Side::left);
+  }
+}
+
+void Overlay::paintAxes(vtkContext2D* painter, const CameraAxes& axes) const {
+  const float s = scale(), arm = axesArm * s, x0 = (margin + axesArm + 8) * s,
+              y0 = (margin + axesArm + 4) * s;
+  static constexpr const char* names[] = {"x", "y", "z"};
+  struct Arrow {
+    int axis;
+    double right, up, towards;
+  };
+  std::array<Arrow, 3> arrows{};
+  for (int k = 0; k < 3; ++k)
+    arrows[k] = {k, axes.right[k], axes.up[k], -axes.forward[k]};
+  std::sort(arrows.begin(), arrows.end(),
+            [](const Arrow& a, const Arrow& b) { return a.towards < b.towards; });
+  for (const Arrow& a : arrows) {
+    const double length = std::hypot(a.right, a.up);
+    if (length < 0.1) continue; // points at the eye or away from it
+    const auto dx = static_cast<float>(a.right / length), dy = static_cast<float>(a.up / length);
+    const float x = x0 + arm * static_cast<float>(a.right), y = y0 + arm * static_cast<float>(a.up);
+    const auto ink = inkOn(content.background, a.towards < -0.3 ? 0.45 : 0.75);
+    setPen(painter, ink, 1.6F * s);
+    painter->DrawLine(x0, y0, x, y);
+    painter->GetBrush()->SetColorF(ink[0], ink[1], ink[2]);
+    const float tip = 7 * s, half = 3 * s;
+    float px[] = {x + tip * dx, x - half * dy, x + half * dy},
+          py[] = {y + tip * dy, y + half * dx, y - half * dx};
+    painter->GetPen()->SetLineType(vtkPen::NO_PEN);
+    painter->DrawPolygon(px, py, 3);
+    write(painter, content, x + 15 * s * dx, y + 15 * s * dy, names[a.axis], textSize - 1, Side::centre);
+  }
+}
+
+void Overlay::paintScaleBar(vtkContext2D* painter) const {
+  const float s = scale(), w = static_cast<float>(content.width);
+  const double length = roundBelow(0.16 * content.width * content.metresPerPixel);
+  const float pixels = std::round(static_cast<float>(length / content.metresPerPixel));
+  const float right = std::round(w - margin * s), left = right - pixels, y = std::round(margin * s);
+  const float thick = std::max(1.0F, std::round(2.5F * s)), cap = std::round(9 * s);
+  const auto ink = inkOn(content.background, 0.8);
+  fill(painter, ink, left, y, pixels, thick);
+  for (const float x : {left, right - thick})
+    fill(painter, ink, x, y + thick / 2 - cap / 2, thick, cap);
+  write(painter, content, 0.5F * (left + right), y + 17 * s, lengthText(length), textSize, Side::centre);
+}
+
+} // namespace sandglass::vis

@@ -1,0 +1,51 @@
+#pragma once
+// What is written over a picture: title, time stamp, legend, scale bar, directions. One 2D item, so that the
+// layout is in one place and nothing overlaps.
+
+#include "vis/camera.h"
+#include "vis/colour_map.h"
+
+#include <vtkContextItem.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sandglass::vis {
+
+struct Legend {
+  std::string name, unit;
+  ColourMap map{"viridis"};
+  double low = 0, high = 1;
+  std::vector<std::string> entries; ///< named things instead of a range (species)
+};
+
+struct OverlayContent {
+  std::string title, time; ///< empty: left out
+  std::optional<Legend> legend;
+  std::optional<CameraAxes> axes; ///< directions as seen by this camera
+  double metresPerPixel = 0;      ///< at the target; 0: no scale bar
+  std::array<double, 3> background{1, 1, 1};
+  int width = 0, height = 0;
+};
+
+/// The part of the picture that the overlay leaves free.
+Frameable freeArea(const OverlayContent& content);
+
+class Overlay : public vtkContextItem {
+public:
+  static Overlay* New();
+  vtkTypeMacro(Overlay, vtkContextItem);
+  OverlayContent content;
+  bool Paint(vtkContext2D* painter) override;
+
+private:
+  void paintLegend(vtkContext2D* painter, const Legend& legend) const;
+  void paintEntries(vtkContext2D* painter, const Legend& legend) const;
+  void paintAxes(vtkContext2D* painter, const CameraAxes& axes) const;
+  void paintScaleBar(vtkContext2D* painter) const;
+  float scale() const;
+};
+
+} // namespace sandglass::vis

@@ -1,0 +1,17 @@
+#pragma once
+// From VTK's framebuffer to an Image.
+
+#include "vis/renderer.h"
+
+class vtkRenderWindow;
+
+namespace sandglass::vis {
+
+/// What the window shows, opaque.
+Image readBack(vtkRenderWindow* window);
+
+/// Colour and opacity of a picture known on black and on white ground: what lies between differs by
+/// 1 - opacity. Exact for lines, text and translucent walls alike.
+Image withoutGround(const Image& onBlack, const Image& onWhite);
+
+} // namespace sandglass::vis

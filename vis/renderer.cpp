@@ -1,0 +1,265 @@
+#include "vis/renderer.h"
+
+#include "sim/base/error.h"
+#include "vis/colour_map.h"
+#include "vis/gl/external_window.h"
+#include "vis/grain_layer.h"
+#include "vis/overlay.h"
+#include "vis/read_back.h"
+#include "vis/text_style.h"
+#include "vis/ticks.h"
+#include "vis/visible_grains.h"
+#include "vis/wall_layer.h"
+
+#include <fmt/format.h>
+#include <vtkCamera.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+namespace sandglass::vis {
+
+namespace {
+
+vtkSmartPointer<ExternalWindow> makeWindow(GlBackend wanted) {
+  std::string reasons;
+  const auto attempt = [&](auto make, const char* name) {
+    std::string reason;
+    auto context = make(reason);
+    if (!context) reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", name, reason);
+    return context;
+  };
+  std::unique_ptr<GlContext> context;
+  if (wanted != GlBackend::egl) context = attempt(makeOsmesaContext, "OSMesa");
+  if (!context && wanted != GlBackend::osmesa) context = attempt(makeEglContext, "EGL");
+  if (!context) throw Error(fmt::format("no picture can be drawn on this machine, for {}.", reasons));
+  auto window = vtkSmartPointer<ExternalWindow>::New();
+  window->setContext(std::move(context));
+  window->SetMultiSamples(0);
+  window->SetAlphaBitPlanes(1);
+  return window;
+}
+
+/// A key light from the upper left of the camera and a weaker one from the lower right: round grains without
+/// black shadows, the same from every side.
+void addLights(vtkRenderer* renderer) {
+  struct Place {
+    double x, y, z, intensity;
+  };
+  for (const auto& [x, y, z, intensity] : {Place{-0.5, 0.8, 1.2, 0.80}, Place{0.9, -0.2, 0.8, 0.30}}) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight();
+    light->SetPosition(x, y, z);
+    light->SetFocalPoint(0, 0, 0);
+    light->SetIntensity(intensity);
+    renderer->AddLight(light);
+  }
+}
+
+/// A range that all grains share, or the shares themselves when species are counted.
+struct Colours {
+  std::vector<Rgb> ofGrain;
+  std::optional<Legend> legend;
+};
+
+Colours coloursOf(const Frame& frame, const Colouring& colouring, const VisibleGrains& grains,
+                  const std::vector<std::size_t>& subset) {
+  Colours result;
+  result.ofGrain.resize(subset.size());
+  if (colouring.quantity.empty()) {
+    Rgb plain;
+    for (int k = 0; k < 3; ++k)
+      plain[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(colouring.plain[k], 0.0, 1.0)));
+    std::fill(result.ofGrain.begin(), result.ofGrain.end(), plain);
+    return result;
+  }
+  Legend legend;
+  legend.name = colouring.quantity;
+  legend.unit = unitOf(colouring.quantity);
+  if (frame.size() == 0) {
+    legend.map = ColourMap(colouring.map);
+    legend.low = colouring.low;
+    legend.high = colouring.high;
+    if (colouring.range != ColourRange::frame) result.legend = legend;
+    return result;
+  }
+  const std::vector<double> values = grainScalar(frame, colouring.quantity);
+  if (colouring.quantity == quantity::species && !frame.speciesNames.empty()) {
+    legend.map = ColourMap("discrete");
+    legend.entries = frame.speciesNames;
+    for (std::size_t k = 0; k < subset.size(); ++k)
+      result.ofGrain[k] = legend.map.ofIndex(std::lround(values[grains.index[subset[k]]]));
+    result.legend = legend;
+    return result;
+  }
+  legend.map = ColourMap(colouring.map);
+  legend.low = colouring.low;
+  legend.high = colouring.high;
+  if (colouring.range == ColourRange::frame) {
+    legend.low = std::numeric_limits<double>::infinity();
+    legend.high = -legend.low;
+    for (const double v : values)
+      if (std::isfinite(v)) legend.low = std::min(legend.low, v), legend.high = std::max(legend.high, v);
+    if (!(legend.low <= legend.high)) legend.low = 0, legend.high = 1;
+  }
+  const double width = legend.high - legend.low;
+  for (std::size_t k = 0; k < subset.size(); ++k)
+    result.ofGrain[k] =
+        legend.map.at(width > 0 ? (values[grains.index[subset[k]]] - legend.low) / width : 0.5);
+  result.legend = legend;
+  return result;
+}
+
+/// VTK's font cache, GLEW's table and more are shared by the whole process: one renderer works at a time.
+std::mutex& vtkTurn() {
+  static std::mutex turn;
+  return turn;
+}
+
+} // namespace
+
+struct Renderer::Impl {
+  explicit Impl(GlBackend backend) : window(makeWindow(backend)) {
+    addLights(scene);
+    scene->AutomaticLightCreationOff();
+    scene->AddActor(grains.actor());
+    for (vtkActor* actor : walls.actors())
+      scene->AddActor(actor);
+    scene->UseFXAAOn();
+    overlayActor->GetScene()->AddItem(overlay);
+    overlayActor->GetScene()->SetRenderer(scene);
+    scene->AddActor(overlayActor);
+    window->AddRenderer(scene);
+    window->OpenGLInitContext();
+    if (!window->fault().empty())
+      throw Error(
+          fmt::format("no picture can be drawn with {}: {}.", window->context().name(), window->fault()));
+    glStrings = fmt::format("{} ({}, {})", window->context().name(), glText(GL_RENDERER), glText(GL_VERSION));
+    window->context().release();
+  }
+  ~Impl() { window->MakeCurrent(); }
+
+  static std::string glText(unsigned name) { return reinterpret_cast<const char*>(glGetString(name)); }
+
+  void setCamera(const Eigen::AlignedBox3d& box) {
+    vtkCamera* c = scene->GetActiveCamera();
+    c->SetPosition(camera.position.data());
+    c->SetFocalPoint(camera.target.data());
+    c->SetViewUp(axesOf(camera).up.data());
+    c->SetViewAngle(camera.viewAngle);
+    c->SetParallelProjection(camera.orthographic);
+    c->SetParallelScale(camera.orthographicHeight / 2);
+    // Every corner of the box and every drawn grain between the clipping planes.
+    const Vec3 forward = axesOf(camera).forward;
+    double near = std::numeric_limits<double>::infinity(), far = -near;
+    const auto include = [&](const Vec3& p, double r) {
+      const double depth = (p - camera.position).dot(forward);
+      near = std::min(near, depth - r);
+      far = std::max(far, depth + r);
+    };
+    for (int k = 0; k < 8; ++k)
+      include(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)), 0);
+    for (std::size_t i = 0; i < visible.position.size(); ++i)
+      include(visible.position[i], visible.radius[i]);
+    const double depth = std::max(far - near, 1e-9);
+    far += 0.01 * depth;
+    near -= 0.01 * depth;
+    c->SetClippingRange(camera.orthographic ? near : std::max(near, 1e-3 * far), far);
+  }
+
+  Image render(const View& view) {
+    const auto on = [&](const std::array<double, 3>& ground) {
+      scene->SetBackground(ground[0], ground[1], ground[2]);
+      window->Render();
+      return readBack(window);
+    };
+    if (!view.transparentBackground) return on(view.background);
+    return withoutGround(on({0, 0, 0}), on({1, 1, 1}));
+  }
+
+  vtkSmartPointer<ExternalWindow> window;
+  vtkNew<vtkRenderer> scene;
+  GrainLayer grains;
+  WallLayer walls;
+  vtkNew<Overlay> overlay;
+  vtkNew<vtkContextActor> overlayActor;
+  VisibleGrains visible;
+  Camera camera;
+  int width = 0, height = 0;
+  std::string glStrings;
+};
+
+Renderer::Renderer(GlBackend backend) {
+  const std::lock_guard lock(vtkTurn());
+  impl_ = std::make_unique<Impl>(backend);
+}
+
+Renderer::~Renderer() {
+  const std::lock_guard lock(vtkTurn());
+  impl_.reset();
+}
+
+Image Renderer::draw(const Frame& frame, const View& view) {
+  if (view.width < 16 || view.height < 16 || view.width > 16384 || view.height > 16384)
+    throw InputError(
+        fmt::format("a picture of {} x {} pixels cannot be drawn; each side must be from 16 to 16384",
+                    view.width, view.height));
+  Impl& d = *impl_;
+  d.width = view.width;
+  d.height = view.height;
+  d.visible = visibleGrains(frame, view);
+  const auto subset = evenSubset(d.visible.index.size(), view.maximumGrains);
+  const Colours colours = coloursOf(frame, view.colouring, d.visible, subset);
+  const Eigen::AlignedBox3d box = pictureBox(frame);
+
+  OverlayContent& over = d.overlay->content;
+  over.width = view.width;
+  over.height = view.height;
+  over.background = view.background;
+  over.title = view.title;
+  over.time = view.timeStamp ? timeText(frame.time) : "";
+  over.legend = view.legend && view.grains ? colours.legend : std::nullopt;
+  over.axes.reset();
+  if (view.axes) over.axes.emplace();
+  over.metresPerPixel = view.scaleBar ? 1 : 0;
+  d.camera = resolve(view.camera, box, frame.domain.periodic, static_cast<double>(view.width) / view.height,
+                     freeArea(over));
+  if (view.axes) over.axes = axesOf(d.camera);
+  if (view.scaleBar) over.metresPerPixel = heightAtTarget(d.camera) / view.height;
+
+  const std::lock_guard lock(vtkTurn());
+  d.window->MakeCurrent();
+  d.window->SetSize(view.width, view.height);
+  d.grains.show(d.visible, subset, colours.ofGrain);
+  d.walls.show(frame, view, box);
+  d.setCamera(box);
+  d.overlay->Modified();
+  Image image = d.render(view);
+  d.window->context().release();
+  return image;
+}
+
+PickResult Renderer::pick(int x, int y) const {
+  const Impl& d = *impl_;
+  if (x < 0 || y < 0 || x >= d.width || y >= d.height) return {};
+  return pickAlong(rayThrough(d.camera, x, y, d.width, d.height), d.visible);
+}
+
+Camera Renderer::resolvedCamera() const {
+  return impl_->camera;
+}
+
+std::string Renderer::backendName() const {
+  return impl_->glStrings;
+}
+
+} // namespace sandglass::vis

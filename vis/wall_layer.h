@@ -1,0 +1,33 @@
+#pragma once
+// Walls: translucent faces, feature edges as lines, the outline of the periodic box, all cut by the clip
+// planes.
+
+#include "sim/frame/frame.h"
+#include "vis/view.h"
+
+#include <Eigen/Geometry>
+
+#include <vtkActor.h>
+#include <vtkNew.h>
+
+#include <memory>
+#include <vector>
+
+namespace sandglass::vis {
+
+class WallLayer {
+public:
+  WallLayer();
+  std::vector<vtkActor*> actors() const { return {faces_, edges_, box_}; }
+
+  void show(const Frame& frame, const View& view, const Eigen::AlignedBox3d& box);
+
+private:
+  void rebuild(const Eigen::AlignedBox3d& box);
+
+  vtkNew<vtkActor> faces_, edges_, box_;
+  std::vector<std::shared_ptr<const WallShape>> shown_; ///< held, so that an address means one shape
+  Eigen::AlignedBox3d builtBox_;
+};
+
+} // namespace sandglass::vis
