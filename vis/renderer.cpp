@@ -1,6 +1,7 @@
 #include "vis/renderer.h"
 
 #include "sim/base/error.h"
+#include "vis/chart_layer.h"
 #include "vis/colour_map.h"
 #include "vis/gl/external_window.h"
 #include "vis/grain_layer.h"
@@ -119,6 +120,13 @@ Colours coloursOf(const Frame& frame, const Colouring& colouring, const VisibleG
   return result;
 }
 
+void refuseBadSize(int width, int height) {
+  constexpr int smallest = 16, largest = 16384; // what Mesa's rasteriser draws into
+  if (std::min(width, height) < smallest || std::max(width, height) > largest)
+    throw InputError(fmt::format("a picture of {} x {} pixels cannot be drawn; each side must be from {} to {}", width,
+                                 height, smallest, largest));
+}
+
 /// VTK's font cache, GLEW's table and more are shared by the whole process: one renderer works at a time.
 std::mutex& vtkTurn() {
   static std::mutex turn;
@@ -139,6 +147,7 @@ struct Renderer::Impl {
     overlayActor->GetScene()->SetRenderer(scene);
     scene->AddActor(overlayActor);
     window->AddRenderer(scene);
+    window->AddRenderer(charts.renderer());
     window->OpenGLInitContext();
     if (!window->fault().empty())
       throw Error(
@@ -190,6 +199,7 @@ struct Renderer::Impl {
   vtkNew<vtkRenderer> scene;
   GrainLayer grains;
   WallLayer walls;
+  ChartLayer charts;
   vtkNew<Overlay> overlay;
   vtkNew<vtkContextActor> overlayActor;
   VisibleGrains visible;
@@ -209,10 +219,7 @@ Renderer::~Renderer() {
 }
 
 Image Renderer::draw(const Frame& frame, const View& view) {
-  if (view.width < 16 || view.height < 16 || view.width > 16384 || view.height > 16384)
-    throw InputError(
-        fmt::format("a picture of {} x {} pixels cannot be drawn; each side must be from 16 to 16384",
-                    view.width, view.height));
+  refuseBadSize(view.width, view.height);
   Impl& d = *impl_;
   d.width = view.width;
   d.height = view.height;
@@ -243,7 +250,24 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   d.walls.show(frame, view, box);
   d.setCamera(box);
   d.overlay->Modified();
+  d.scene->DrawOn();
+  d.charts.renderer()->DrawOff();
   Image image = d.render(view);
+  d.window->context().release();
+  return image;
+}
+
+Image Renderer::draw(const analysis::Curve& curve, int width, int height) {
+  refuseBadSize(width, height);
+  Impl& d = *impl_;
+  const std::lock_guard lock(vtkTurn());
+  d.window->MakeCurrent();
+  d.window->SetSize(width, height);
+  d.charts.show(curve, width, height);
+  d.scene->DrawOff();
+  d.charts.renderer()->DrawOn();
+  d.window->Render();
+  Image image = readBack(d.window);
   d.window->context().release();
   return image;
 }

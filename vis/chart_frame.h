@@ -1,0 +1,46 @@
+#pragma once
+// What surrounds a chart's axes: title and key above, axis titles, definition below, and the marks over the
+// lines.
+
+#include "analysis/result.h"
+
+#include <vtkContextItem.h>
+
+#include <string>
+#include <vector>
+
+class vtkChartXY;
+
+namespace sandglass::vis {
+
+/// Pixels that the surroundings of the axes take on each side.
+struct ChartMargins {
+  float left = 0, right = 0, top = 0, bottom = 0;
+};
+
+class ChartFrame : public vtkContextItem {
+public:
+  static ChartFrame* New();
+  vtkTypeMacro(ChartFrame, vtkContextItem);
+
+  analysis::Curve curve;
+  std::string xTitle, yTitle;  ///< with unit and power of ten
+  vtkChartXY* chart = nullptr; ///< painted before this item: marks are placed by its axes
+  int width = 0, height = 0;
+
+  ChartMargins margins() const;
+  bool Paint(vtkContext2D* painter) override;
+
+private:
+  struct PlotArea {
+    float x0, x1, y0, y1;
+  };
+  PlotArea plotArea() const;
+  std::vector<std::string> definitionLines() const;
+  bool hasKey() const;
+  void paintKey(vtkContext2D* painter, float y) const;
+  void paintMarks(vtkContext2D* painter) const;
+  void paintAxisTitles(vtkContext2D* painter) const;
+};
+
+} // namespace sandglass::vis
