@@ -27,14 +27,14 @@ struct Mark {
 };
 
 struct Curve {
-  std::string name;                 ///< file stem: "gr", "discharge"
+  std::string name; ///< file stem: "gr", "discharge"
   std::string title;
-  std::string definition;           ///< one line: estimator, region, cut-off
+  std::string definition; ///< one line: estimator, region, cut-off
   Axis x, y;
   std::vector<Series> series;
   std::vector<Mark> marks;
-  std::size_t frames = 0;           ///< frames averaged
-  std::map<std::string, double> numbers;          ///< "rate", "rate_error_95", ...
+  std::size_t frames = 0;                ///< frames averaged
+  std::map<std::string, double> numbers; ///< "rate", "rate_error_95", ...
   std::map<std::string, std::string> provenance;
 };
 

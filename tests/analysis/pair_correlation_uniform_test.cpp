@@ -1,0 +1,98 @@
+// Uniform random points have g = 1 in any container: the ideal gas is the test of the walls' correction.
+
+#include "analysis/pair_correlation.h"
+#include "analysis/statistics.h"
+#include "tests/analysis/containers.h"
+
+#include <catch2/catch.hpp>
+
+using namespace sandglass;
+using namespace sandglass::analysis;
+using namespace sandglass::analysis::test;
+
+namespace {
+
+struct Verdict {
+  double worst = 0;       ///< largest deviation from 1 in standard errors of the mean
+  double probability = 0; ///< of a chi-squared this large or larger
+};
+
+/// 50 independent replicates give each bin its mean and the standard error of it. Each deviation is a Student
+/// variable of 49 degrees of freedom; its square is scaled by 47/49 to have mean 1 before the sum is compared
+/// with chi-squared.
+Verdict judge(const std::vector<std::vector<double>>& replicates) {
+  const std::size_t bins = replicates.front().size();
+  Verdict verdict;
+  double chiSquared = 0;
+  for (std::size_t b = 0; b < bins; ++b) {
+    std::vector<double> values;
+    for (const auto& g : replicates)
+      values.push_back(g[b]);
+    const double z = (mean(values) - 1) / std::sqrt(variance(values) / static_cast<double>(values.size()));
+    verdict.worst = std::max(verdict.worst, std::abs(z));
+    chiSquared += z * z * 47 / 49;
+  }
+  verdict.probability = chiSquaredProbability(chiSquared, static_cast<double>(bins));
+  return verdict;
+}
+
+Verdict uniformVerdict(const Vec3& size, std::array<bool, 3> periodic, double radius,
+                       const std::vector<FrameWall>& walls, double rMax, Estimator estimator) {
+  std::vector<std::vector<double>> replicates;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const Frame frame = uniformFrame(1500, size, periodic, radius, walls, 100 + seed);
+    PairCorrelationOptions options;
+    options.estimator = estimator;
+    options.rMax = rMax;
+    options.bins = 20;
+    options.directions = 16;
+    options.seed = 1 + seed;
+    replicates.push_back(pairCorrelation(frame, options).g.series[0].y);
+  }
+  return judge(replicates);
+}
+
+} // namespace
+
+TEST_CASE("uniform points in walled containers give 1", "[gr][uniform]") {
+  const double radius = 0.05;
+  const Vec3 size(1, 1, 1.2);
+  const auto [name, wall] = GENERATE(table<std::string, FrameWall>({{"box", boxWall(Vec3(1, 1, 1.2))},
+                                                                    {"cylinder", cylinderWall(0.5, 1.2)},
+                                                                    {"cone", coneWall(0.5, 1.2)}}));
+  const Verdict verdict =
+      uniformVerdict(size, {false, false, false}, radius, {wall}, 0.5, Estimator::localShell);
+  INFO(name << ": worst bin " << verdict.worst << " sigma, chi-squared probability " << verdict.probability);
+  CHECK(verdict.worst < 4.5);
+  CHECK(verdict.probability > 0.001);
+  CHECK(verdict.probability < 0.999);
+}
+
+TEST_CASE("without correction the same points fall below 1", "[gr][uniform]") {
+  const Verdict verdict = uniformVerdict(Vec3(1, 1, 1.2), {false, false, false}, 0.05,
+                                         {boxWall(Vec3(1, 1, 1.2))}, 0.5, Estimator::uncorrected);
+  CHECK(verdict.worst > 100);
+}
+
+TEST_CASE("a periodic slab 2.5 diameters deep gives 1 beyond its depth", "[gr][uniform]") {
+  // d = 0.1, depth 0.25, reach 0.5: every shell beyond 0.125 wraps round the slab.
+  const Vec3 size(1.2, 1.2, 0.25);
+  const FrameWall sides = wall("sides", [](const Vec3& x) {
+    return std::min({x.x(), x.y(), 1.2 - x.x(), 1.2 - x.y()});
+  });
+  const Verdict verdict =
+      uniformVerdict(size, {false, false, true}, 0.05, {sides}, 0.5, Estimator::localShell);
+  INFO("worst bin " << verdict.worst << " sigma, chi-squared probability " << verdict.probability);
+  CHECK(verdict.worst < 4.5);
+  CHECK(verdict.probability > 0.001);
+  CHECK(verdict.probability < 0.999);
+}
+
+TEST_CASE("the guard zone gives 1 as well", "[gr][uniform]") {
+  const Verdict verdict = uniformVerdict(Vec3(1, 1, 1.2), {false, false, false}, 0.05,
+                                         {boxWall(Vec3(1, 1, 1.2))}, 0.25, Estimator::guardZone);
+  INFO("worst bin " << verdict.worst << " sigma, chi-squared probability " << verdict.probability);
+  CHECK(verdict.worst < 4.5);
+  CHECK(verdict.probability > 0.001);
+  CHECK(verdict.probability < 0.999);
+}
