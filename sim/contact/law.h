@@ -6,6 +6,7 @@
 #include "sim/contact/law_registry.h"
 #include "sim/scene/parameters.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,12 @@ public:
 
   /// Energy stored in contact c [J], for the energy balance. Reads geometry, stiffness and history.
   virtual double storedEnergy(const ContactBlock& block, int c, int firstHistory) const { return 0.0; }
+
+  /// Duration of a collision of a pair of materials [s]; infinite for laws that set no time scale. Hertzian
+  /// laws read the impact speed [m/s].
+  virtual double collisionTime(int type, double reducedMass, double effectiveRadius, double speed) const {
+    return std::numeric_limits<double>::infinity();
+  }
 
   /// Called after the force loop, in pair order, for events that apply() raised and for live pairs that are
   /// torn away (a grain leaves the run). May move grain quantities and set the pair's history.

@@ -29,10 +29,10 @@ struct Flow {
 
 /// How the step was chosen, in words and numbers, for `explain`.
 struct StepChoice {
-  double step = 0;           ///< [s]
-  double shortestContact = 0;///< [s], collision time of the stiffest pair
-  double stableLimit = 0;    ///< [s]
-  std::string rule;          ///< one sentence
+  double step = 0;            ///< [s]
+  double shortestContact = 0; ///< [s], collision time of the stiffest pair
+  double stableLimit = 0;     ///< [s]
+  std::string rule;           ///< one sentence
 };
 
 class Solver {
@@ -47,9 +47,9 @@ public:
   /// not to be used any more.
   virtual void advance(std::int64_t steps) = 0;
 
-  virtual double time() const = 0;        ///< [s]
+  virtual double time() const = 0; ///< [s]
   virtual std::int64_t step() const = 0;
-  virtual double stepSize() const = 0;    ///< [s]
+  virtual double stepSize() const = 0; ///< [s]
   virtual std::size_t grains() const = 0;
   virtual std::int64_t nextId() const = 0;
   virtual bool isFree(const Vec3& position, double radius) const = 0;
@@ -63,7 +63,7 @@ public:
 
   /// Everything that decides the future, bit for bit: a named set of byte arrays.
   using State = std::map<std::string, std::vector<std::byte>>;
-  virtual State save() const = 0;
+  virtual State save() = 0;
   virtual void load(const State& state) = 0;
 };
 
@@ -80,9 +80,9 @@ struct Forecast {
   StepChoice step;
   std::int64_t grains = 0;
   double bytesPerGrain = 0;
-  double secondsPerGrainStep = 0;          ///< measured by a short trial on this machine, one thread
-  std::vector<std::string> modelled;       ///< one line each: feature, why, cost
-  std::vector<std::string> notModelled;    ///< features that cost nothing here
+  double secondsPerGrainStep = 0;       ///< measured by a short trial on this machine, one thread
+  std::vector<std::string> modelled;    ///< one line each: feature, why, cost
+  std::vector<std::string> notModelled; ///< features that cost nothing here
 };
 Forecast forecast(const Scene& scene);
 

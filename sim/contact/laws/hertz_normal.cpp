@@ -48,6 +48,13 @@ public:
     return 8.0 / 15.0 * table_[b.type[i]].modulus * std::sqrt(b.effectiveRadius[i] * x) * x * x;
   }
 
+  /// Elastic Hertz collision (Landau, Lifshitz, Theory of Elasticity, section 9, problem 1):
+  /// t = 2.8683 (m^2 / (R E*^2 v))^(1/5), with E* as above.
+  double collisionTime(int type, double mass, double radius, double speed) const override {
+    const double E = table_[type].modulus;
+    return 2.8683 * std::pow(mass * mass / (radius * E * E * speed), 0.2);
+  }
+
 private:
   struct Constants {
     double modulus = 0, damping = 0;

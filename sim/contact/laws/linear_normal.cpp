@@ -59,6 +59,12 @@ public:
     return 0.5 * table_[b.type[i]].k * x * x;
   }
 
+  double collisionTime(int type, double mass, double, double) const override {
+    // Overdamped contacts creep apart; their spring alone still limits the step.
+    const Constants& c = table_[type];
+    return std::numbers::pi / std::sqrt(c.k / mass * std::max(1.0 - c.zeta * c.zeta, 0.1));
+  }
+
 private:
   struct Constants {
     double k = 0, zeta = 0;

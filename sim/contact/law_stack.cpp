@@ -1,0 +1,140 @@
+#include "sim/contact/law_stack.h"
+
+#include "sim/base/error.h"
+#include "sim/grains/seeding.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sandglass {
+
+namespace {
+
+/// Mean grain mass of a material over the species made of it; 0 for a wall's material.
+double meanMass(const Scene& scene, const std::string& material) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Species& s : scene.species)
+    if (s.material == material) {
+      sum += sizeRange(scene, s).meanMass;
+      ++count;
+    }
+  return count == 0 ? 0.0 : sum / count;
+}
+
+const ContactSpec* findContact(const Scene& scene, const std::string& a, const std::string& b) {
+  for (const ContactSpec& c : scene.contacts)
+    if ((c.first == a && c.second == b) || (c.first == b && c.second == a)) return &c;
+  return nullptr;
+}
+
+/// Everything about the pair but the parameters of a law.
+PairType pairType(const Scene& scene, const Material& a, const Material& b) {
+  PairType t;
+  const double ma = meanMass(scene, a.name), mb = meanMass(scene, b.name);
+  t.used = ma > 0.0 || mb > 0.0;
+  t.referenceMass = ma > 0.0 && mb > 0.0 ? ma * mb / (ma + mb) : std::max(ma, mb);
+  if (a.youngsModulus && b.youngsModulus && a.poissonRatio && b.poissonRatio) {
+    const auto inverse = [](const Material& m) {
+      return (1.0 - *m.poissonRatio * *m.poissonRatio) / *m.youngsModulus;
+    };
+    const auto inverseShear = [](const Material& m) {
+      return 2.0 * (2.0 - *m.poissonRatio) * (1.0 + *m.poissonRatio) / *m.youngsModulus; // (2 - nu) / G
+    };
+    t.effectiveYoungsModulus = 1.0 / (inverse(a) + inverse(b));
+    t.effectiveShearModulus = 1.0 / (inverseShear(a) + inverseShear(b));
+  }
+  return t;
+}
+
+const Choice& choice(const ContactSpec& contact, LawRole role) {
+  return role == LawRole::normal       ? contact.normal
+         : role == LawRole::tangential ? contact.tangential
+                                       : contact.rolling;
+}
+
+const char* roleName(LawRole role) {
+  return role == LawRole::normal ? "normal" : role == LawRole::tangential ? "tangential" : "rolling";
+}
+
+} // namespace
+
+LawStack::LawStack(const Scene& scene) : materials_(static_cast<int>(scene.materials.size())) {
+  std::vector<const ContactSpec*> specs;
+  for (const Material& a : scene.materials)
+    for (const Material& b : scene.materials) {
+      specs.push_back(findContact(scene, a.name, b.name));
+      context_.types.push_back(pairType(scene, a, b));
+      context_.types.back().used = context_.types.back().used && specs.back();
+    }
+  for (const LawRole role : {LawRole::normal, LawRole::tangential, LawRole::rolling}) {
+    const LawKind* kind = nullptr;
+    LawContext context = context_;
+    for (std::size_t k = 0; k < specs.size(); ++k) {
+      if (!context.types[k].used) continue;
+      const Choice& picked = choice(*specs[k], role);
+      const std::string name = picked.kind.empty() ? "none" : picked.kind;
+      const LawKind* found = findLaw(role, name);
+      if (!found) throw InputError(fmt::format("there is no {} law '{}'", roleName(role), name));
+      if (kind && found != kind)
+        throw InputError(
+            fmt::format("all contacts of a scene need the same kind of {} law; found '{}' and '{}'",
+                        roleName(role), kind->name, found->name));
+      if (found->needsElasticity && context.types[k].effectiveYoungsModulus <= 0.0)
+        throw InputError(
+            fmt::format("the {} law '{}' needs youngs_modulus and poisson_ratio of both '{}' and '{}'",
+                        roleName(role), name, specs[k]->first, specs[k]->second));
+      kind = found;
+      context.types[k].parameters = picked.parameters;
+    }
+    if (!kind || kind->name == "none") continue;
+    append(kind->make(context), kind->name, role);
+  }
+  // A gap law acts between the pairs of materials that name it.
+  std::vector<std::string> gaps;
+  for (const ContactSpec* spec : specs)
+    if (spec)
+      for (const Choice& g : spec->gap)
+        if (std::find(gaps.begin(), gaps.end(), g.kind) == gaps.end()) gaps.push_back(g.kind);
+  for (const std::string& name : gaps) {
+    const LawKind* kind = findLaw(LawRole::gap, name);
+    if (!kind) throw InputError(fmt::format("there is no gap law '{}'", name));
+    LawContext context = context_;
+    for (std::size_t k = 0; k < specs.size(); ++k) {
+      bool named = false;
+      if (specs[k])
+        for (const Choice& g : specs[k]->gap)
+          if (g.kind == name) {
+            context.types[k].parameters = g.parameters;
+            named = true;
+          }
+      context.types[k].used = context.types[k].used && named;
+    }
+    append(kind->make(context), name, LawRole::gap);
+  }
+}
+
+void LawStack::add(std::shared_ptr<const Law> law) {
+  append(std::move(law), "added", LawRole::gap);
+}
+
+void LawStack::append(std::shared_ptr<const Law> law, std::string name, LawRole role) {
+  Entry entry{law, std::move(name), role, history_, {}};
+  history_ += law->historySize();
+  if (history_ > ContactBlock::maxHistory)
+    throw InputError(fmt::format("the laws of a scene may keep {} numbers of history per pair; these need {}",
+                                 ContactBlock::maxHistory, history_));
+  range_ = std::max(range_, law->range());
+  turning_ = turning_ || law->turnsGrains();
+  readsSpin_ = readsSpin_ || law->readsSpin();
+  events_ = events_ || (role == LawRole::gap && law->historySize() > 0);
+  for (const std::string& quantity : law->grainQuantities()) {
+    auto at = std::find(quantityNames_.begin(), quantityNames_.end(), quantity);
+    if (at == quantityNames_.end()) at = quantityNames_.insert(quantityNames_.end(), quantity);
+    entry.quantities.push_back(static_cast<int>(at - quantityNames_.begin()));
+  }
+  entries_.push_back(std::move(entry));
+}
+
+} // namespace sandglass

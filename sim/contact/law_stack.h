@@ -1,0 +1,53 @@
+#pragma once
+// The laws of one scene in the order in which a block passes them, and what they need between them.
+
+#include "sim/contact/law.h"
+#include "sim/scene/scene.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sandglass {
+
+class LawStack {
+public:
+  /// Throws InputError (a phrase) when laws contradict their parameters or each other.
+  explicit LawStack(const Scene& scene);
+
+  /// Adds a law that no scene names; for programs and tests that bring their own.
+  void add(std::shared_ptr<const Law> law);
+
+  struct Entry {
+    std::shared_ptr<const Law> law;
+    std::string name;
+    LawRole role;
+    int firstHistory = 0;
+    std::vector<int> quantities; ///< rows of GrainStore::quantities
+  };
+
+  const std::vector<Entry>& entries() const { return entries_; }
+  const LawContext& context() const { return context_; }
+  int materials() const { return materials_; }
+  int typeOf(int materialA, int materialB) const { return materialA * materials_ + materialB; }
+  int historySize() const { return history_; }
+  double range() const { return range_; }
+  bool turning() const { return turning_; }
+  bool readsSpin() const { return readsSpin_; }
+  bool hasEvents() const { return events_; }
+  const std::vector<std::string>& quantityNames() const { return quantityNames_; }
+  /// Doubles written per pair: force; with friction also a torque; with couples those too.
+  int outputSize() const { return readsSpin_ ? 9 : turning_ ? 6 : 3; }
+
+private:
+  void append(std::shared_ptr<const Law> law, std::string name, LawRole role);
+
+  std::vector<Entry> entries_;
+  LawContext context_;
+  std::vector<std::string> quantityNames_;
+  int materials_ = 0, history_ = 0;
+  double range_ = 0.0;
+  bool turning_ = false, readsSpin_ = false, events_ = false;
+};
+
+} // namespace sandglass

@@ -1,0 +1,241 @@
+#include "sim/contact/wall_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+namespace sandglass {
+
+void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>& walls, double margin,
+                         Parallel& parallel) {
+  const auto n = static_cast<std::int64_t>(grains.size());
+  constexpr std::int64_t chunk = 1024;
+  std::vector<std::vector<Candidate>> found(static_cast<std::size_t>((n + chunk - 1) / chunk));
+  parallel.forRange(static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t c = first; c < last; ++c)
+      for (std::int64_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i)
+        for (std::size_t w = 0; w < walls.size(); ++w) {
+          if (!walls[w].active) continue;
+          WallShape::Touches touches;
+          walls[w].shape->touches(grains.place[i].vec(), grains.place[i].w + margin, touches);
+          if (touches.count > 0)
+            found[c].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
+        }
+  });
+
+  // Old candidates by (id, wall), for their histories.
+  struct Key {
+    std::int64_t id;
+    std::int32_t wall;
+    std::size_t at;
+    bool operator<(const Key& o) const { return id != o.id ? id < o.id : wall < o.wall; }
+  };
+  std::vector<Key> old;
+  old.reserve(candidates_.size());
+  for (std::size_t k = 0; k < candidates_.size(); ++k)
+    old.push_back({ids_[k], candidates_[k].wall, k});
+  std::sort(old.begin(), old.end());
+  const std::vector<std::int32_t> oldFeature = std::move(feature_);
+  const std::vector<double> oldHistory = std::move(history_);
+
+  candidates_.clear();
+  ids_.clear();
+  offsets_.assign(static_cast<std::size_t>(n) + 1, 0);
+  for (const auto& f : found)
+    for (const Candidate& c : f) {
+      candidates_.push_back(c);
+      ids_.push_back(grains.id[c.grain]);
+      ++offsets_[c.grain + 1];
+    }
+  for (std::int64_t i = 0; i < n; ++i)
+    offsets_[i + 1] += offsets_[i];
+
+  const std::size_t row = static_cast<std::size_t>(slots) * laws_.historySize();
+  feature_.assign(candidates_.size() * slots, -1);
+  history_.assign(candidates_.size() * row, 0.0);
+  result_.assign(candidates_.size() * 6, 0.0);
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    const Key key{ids_[k], candidates_[k].wall, 0};
+    const auto it = std::lower_bound(old.begin(), old.end(), key);
+    if (it == old.end() || key < *it) continue;
+    std::copy_n(oldFeature.data() + it->at * slots, slots, feature_.data() + k * slots);
+    std::copy_n(oldHistory.data() + it->at * row, row, history_.data() + k * row);
+  }
+}
+
+int WallContacts::touches(const GrainStore& grains, const std::vector<SolverWall>& walls,
+                          std::size_t candidate, double reach, WallShape::Touches& out) const {
+  const Candidate& c = candidates_[candidate];
+  if (!walls[c.wall].active) return 0;
+  const Quad& place = grains.place[c.grain];
+  walls[c.wall].shape->touches(place.vec(), place.w + reach, out);
+  return out.count;
+}
+
+void WallContacts::matchHistories(std::size_t candidate, const WallShape::Touches& now,
+                                  double* histories) const {
+  const int size = laws_.historySize();
+  const std::int32_t* before = feature_.data() + candidate * slots;
+  const double* kept = history_.data() + candidate * slots * size;
+  bool taken[slots] = {};
+  int source[slots];
+  for (int c = 0; c < now.count; ++c) {
+    source[c] = -1;
+    for (int s = 0; s < slots; ++s)
+      if (before[s] == now.at[c].feature) {
+        source[c] = s;
+        taken[s] = true;
+      }
+  }
+  for (int c = 0; c < now.count; ++c) // sliding from a face on to its edge: the contact goes on
+    for (int s = 0; s < slots && source[c] < 0; ++s)
+      if (before[s] >= 0 && !taken[s]) {
+        source[c] = s;
+        taken[s] = true;
+      }
+  for (int c = 0; c < now.count; ++c)
+    for (int k = 0; k < size; ++k)
+      histories[c * size + k] = source[c] < 0 ? 0.0 : kept[source[c] * size + k];
+}
+
+void WallContacts::fillOne(const GrainStore& grains, const SolverWall& wall, std::int32_t i,
+                           const WallTouch& touch, const double* history, ContactBlock& b, int c) const {
+  const Quad &x = grains.place[i], &v = grains.motion[i];
+  const Vec3& n = touch.normal;
+  b.type[c] = laws_.typeOf(grains.material[i], wall.material);
+  b.nx[c] = n.x();
+  b.ny[c] = n.y();
+  b.nz[c] = n.z();
+  b.overlap[c] = x.w - touch.distance;
+  b.radiusA[c] = b.effectiveRadius[c] = x.w;
+  b.radiusB[c] = 1.0;
+  b.inverseMassA[c] = v.w;
+  b.inverseMassB[c] = 0.0;
+  b.effectiveMass[c] = 1.0 / v.w;
+  const Vec3 velocity = v.vec();
+  const double vn = velocity.dot(n);
+  Vec3 slip = velocity - vn * n;
+  if (laws_.turning()) {
+    const Vec3 spin = grains.spin[i].vec();
+    slip -= touch.distance * spin.cross(n);
+    b.wx[c] = spin.x();
+    b.wy[c] = spin.y();
+    b.wz[c] = spin.z();
+  }
+  b.vn[c] = vn;
+  b.vtx[c] = slip.x();
+  b.vty[c] = slip.y();
+  b.vtz[c] = slip.z();
+  for (int k = 0; k < laws_.historySize(); ++k)
+    b.history[k][c] = history[k];
+}
+
+void WallContacts::applyLaws(ContactBlock& b) const {
+  for (int c = 0; c < b.size; ++c) {
+    b.normalForce[c] = b.contactForce[c] = b.stiffness[c] = b.damping[c] = 0.0;
+    b.ftx[c] = b.fty[c] = b.ftz[c] = b.mx[c] = b.my[c] = b.mz[c] = 0.0;
+    b.event[c] = noEvent;
+  }
+  for (const auto& entry : laws_.entries())
+    entry.law->apply(b, entry.firstHistory);
+}
+
+void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>& walls, double dt,
+                        Parallel& parallel, DeepestOverlap& deepest) {
+  std::mutex merge;
+  const int size = laws_.historySize();
+  parallel.forRange(
+      static_cast<std::int64_t>(candidates_.size()), 256, [&](std::int64_t first, std::int64_t last) {
+        ContactBlock block;
+        block.dt = dt;
+        std::vector<double> histories(static_cast<std::size_t>(ContactBlock::capacity) * std::max(1, size));
+        std::int32_t owner[ContactBlock::capacity]; // candidate of each contact in the block
+        double distance[ContactBlock::capacity];
+        DeepestOverlap worst;
+        block.size = 0;
+        const auto flush = [&] {
+          applyLaws(block);
+          int slot = 0;
+          for (int c = 0; c < block.size; ++c) {
+            const std::size_t k = owner[c];
+            slot = c > 0 && owner[c - 1] == owner[c] ? slot + 1 : 0;
+            double* h = history_.data() + (k * slots + slot) * size;
+            for (int q = 0; q < size; ++q)
+              h[q] = block.history[q][c];
+            const Vec3 n(block.nx[c], block.ny[c], block.nz[c]), ft(block.ftx[c], block.fty[c], block.ftz[c]);
+            const Vec3 f = block.normalForce[c] * n + ft;
+            const Vec3 t = -distance[c] * n.cross(ft) + Vec3(block.mx[c], block.my[c], block.mz[c]);
+            double* out = result_.data() + k * 6;
+            for (int q = 0; q < 3; ++q) {
+              out[q] += f[q];
+              out[3 + q] += t[q];
+            }
+            worst.take(block.overlap[c] / block.radiusA[c], grains.id[candidates_[k].grain], -1,
+                       candidates_[k].wall);
+          }
+          block.size = 0;
+        };
+        for (std::int64_t k = first; k < last; ++k) {
+          WallShape::Touches now;
+          const int count = touches(grains, walls, k, laws_.range(), now);
+          std::fill_n(result_.data() + k * 6, 6, 0.0);
+          std::int32_t* feature = feature_.data() + k * slots;
+          if (count > 0) {
+            if (block.size + count > ContactBlock::capacity) flush();
+            matchHistories(k, now, histories.data());
+            for (int c = 0; c < count; ++c) {
+              owner[block.size] = static_cast<std::int32_t>(k);
+              distance[block.size] = now.at[c].distance;
+              fillOne(grains, walls[candidates_[k].wall], candidates_[k].grain, now.at[c],
+                      histories.data() + c * size, block, block.size);
+              ++block.size;
+            }
+          }
+          for (int s = 0; s < slots; ++s)
+            feature[s] = s < count ? now.at[s].feature : -1;
+        }
+        if (block.size) flush();
+        const std::lock_guard lock(merge);
+        deepest.take(worst.share, worst.idA, worst.idB, worst.wall);
+      });
+}
+
+void WallContacts::gather(GrainStore& grains, std::int64_t first, std::int64_t last) const {
+  for (std::int64_t i = first; i < last; ++i)
+    for (std::int32_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
+      const double* out = result_.data() + static_cast<std::size_t>(k) * 6;
+      Quad& f = grains.force[i];
+      f.x += out[0];
+      f.y += out[1];
+      f.z += out[2];
+      if (!grains.turning) continue;
+      Quad& t = grains.torque[i];
+      t.x += out[3];
+      t.y += out[4];
+      t.z += out[5];
+    }
+}
+
+void WallContacts::total(const GrainStore& grains, int wall, Vec3& force, Vec3& torque) const {
+  force = torque = Vec3::Zero();
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    if (candidates_[k].wall != wall) continue;
+    const double* out = result_.data() + k * 6;
+    const Vec3 f(out[0], out[1], out[2]), t(out[3], out[4], out[5]);
+    force -= f;
+    torque -= grains.place[candidates_[k].grain].vec().cross(f) +
+              t; // moment about the origin, carried over to the contact
+  }
+}
+
+double WallContacts::storedEnergy(const GrainStore& grains, const std::vector<SolverWall>& walls) const {
+  double sum = 0.0;
+  visitContacts(grains, walls,
+                [&](std::int32_t, std::int32_t, const ContactBlock& block, int c, const WallTouch&) {
+                  for (const auto& entry : laws_.entries())
+                    sum += entry.law->storedEnergy(block, c, entry.firstHistory);
+                });
+  return sum;
+}
+
+} // namespace sandglass

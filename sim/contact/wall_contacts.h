@@ -1,0 +1,101 @@
+#pragma once
+// Grains at walls: who is near which wall, the forces there, and histories that follow a grain along a wall.
+
+#include "sim/contact/law_stack.h"
+#include "sim/contact/pair_forces.h"
+#include "sim/grains/grain_store.h"
+#include "sim/walls/wall_shape.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sandglass {
+
+/// A wall as the solver sees it.
+struct SolverWall {
+  std::string name;
+  std::shared_ptr<const WallShape> shape;
+  int material = 0;
+  bool active = true;
+};
+
+class WallContacts {
+public:
+  explicit WallContacts(const LawStack& laws) : laws_(laws) {}
+
+  /// Lists grains within radius + margin of an active wall. Histories are carried by (grain id, wall).
+  void build(const GrainStore& grains, const std::vector<SolverWall>& walls, double margin,
+             Parallel& parallel);
+
+  void step(const GrainStore& grains, const std::vector<SolverWall>& walls, double dt, Parallel& parallel,
+            DeepestOverlap& deepest);
+
+  /// Adds forces and torques to the grains in [first, last), in wall order.
+  void gather(GrainStore& grains, std::int64_t first, std::int64_t last) const;
+
+  /// Force of the grains on wall w [N] and its torque about the origin [N m], of the last step.
+  void total(const GrainStore& grains, int wall, Vec3& force, Vec3& torque) const;
+
+  double storedEnergy(const GrainStore& grains, const std::vector<SolverWall>& walls) const;
+
+  /// Calls visit(grain, wall, block, c, distance) for each contact with present forces; changes nothing.
+  template <class Visit>
+  void visitContacts(const GrainStore& grains, const std::vector<SolverWall>& walls, Visit&& visit) const;
+
+  /// For checkpoints: what cannot be made again from positions.
+  std::vector<double>& historyArray() { return history_; }
+  std::vector<std::int32_t>& featureArray() { return feature_; }
+  const std::vector<double>& historyArray() const { return history_; }
+  const std::vector<std::int32_t>& featureArray() const { return feature_; }
+  std::vector<double>& resultArray() { return result_; }
+
+  std::size_t size() const { return candidates_.size(); }
+
+private:
+  static constexpr int slots = WallShape::maxTouches;
+  struct Candidate {
+    std::int32_t grain = 0;
+    std::int32_t wall = 0;
+  };
+  /// Contacts of one candidate, each with the row of history that it goes on with.
+  int touches(const GrainStore& grains, const std::vector<SolverWall>& walls, std::size_t candidate,
+              double reach, WallShape::Touches& out) const;
+  void fillOne(const GrainStore& grains, const SolverWall& wall, std::int32_t grain, const WallTouch& touch,
+               const double* history, ContactBlock& block, int c) const;
+  void applyLaws(ContactBlock& block) const;
+  /// Row of history that feature `f` goes on with: its own, or one whose feature has just ended.
+  void matchHistories(std::size_t candidate, const WallShape::Touches& now, double* histories) const;
+
+  const LawStack& laws_;
+  std::vector<Candidate> candidates_;
+  std::vector<std::int32_t> offsets_; ///< candidates of each grain
+  std::vector<std::int64_t> ids_;     ///< id of each candidate's grain, for carrying
+  std::vector<std::int32_t> feature_; ///< slots per candidate; -1: empty
+  std::vector<double> history_;       ///< slots x historySize per candidate
+  std::vector<double> result_;        ///< force and torque on the grain, six per candidate
+};
+
+template <class Visit>
+void WallContacts::visitContacts(const GrainStore& grains, const std::vector<SolverWall>& walls,
+                                 Visit&& visit) const {
+  ContactBlock block;
+  block.dt = 0.0;
+  std::vector<double> histories(static_cast<std::size_t>(slots) * std::max(1, laws_.historySize()));
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    WallShape::Touches now;
+    if (touches(grains, walls, k, laws_.range(), now) == 0) continue;
+    matchHistories(k, now, histories.data());
+    block.size = now.count;
+    const Candidate& at = candidates_[k];
+    for (int c = 0; c < now.count; ++c)
+      fillOne(grains, walls[at.wall], at.grain, now.at[c], histories.data() + c * laws_.historySize(), block,
+              c);
+    applyLaws(block);
+    for (int c = 0; c < now.count; ++c)
+      visit(at.grain, at.wall, block, c, now.at[c]);
+  }
+}
+
+} // namespace sandglass

@@ -1,0 +1,245 @@
+// What the soft-sphere solver shows of itself: frames, energies, walls, and its state for checkpoints.
+
+#include "sim/base/error.h"
+#include "sim/solvers/dem/dem_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+
+namespace sandglass {
+
+Vec3 DemSolver::wrapped(Vec3 x) const {
+  const Domain& d = scene_.domain;
+  for (int k = 0; k < 3; ++k)
+    if (d.periodic[k]) {
+      const double length = d.upper[k] - d.lower[k];
+      x[k] -= length * std::floor((x[k] - d.lower[k]) / length);
+      if (x[k] >= d.upper[k]) x[k] = d.lower[k];
+    }
+  return x;
+}
+
+FramePtr DemSolver::frame() const {
+  auto frame = std::make_shared<Frame>();
+  frame->time = time();
+  frame->step = step_;
+  frame->domain = scene_.domain;
+  for (const Species& s : scene_.species)
+    frame->speciesNames.push_back(s.name);
+  const auto order = idOrder();
+  const auto wants = [&](const char* name) {
+    const auto& list = scene_.output.quantities;
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  const auto scalars = [&](const char* name, auto&& value) {
+    auto& out = frame->scalars[name];
+    out.reserve(order.size());
+    for (std::int32_t i : order)
+      out.push_back(value(i));
+  };
+  const auto vectors = [&](const char* name, const std::vector<Quad>& from) {
+    auto& out = frame->vectors[name];
+    out.reserve(order.size());
+    for (std::int32_t i : order)
+      out.push_back(from[i].vec());
+  };
+  for (std::int32_t i : order) {
+    frame->id.push_back(grains_.id[i]);
+    frame->position.push_back(wrapped(grains_.place[i].vec()));
+  }
+  scalars(quantity::radius, [&](std::int32_t i) { return grains_.place[i].w; });
+  if (scene_.species.size() > 1 || wants(quantity::species))
+    scalars(quantity::species, [&](std::int32_t i) { return static_cast<double>(grains_.species[i]); });
+  if (wants(quantity::mass)) scalars(quantity::mass, [&](std::int32_t i) { return grains_.mass(i); });
+  for (std::size_t q = 0; q < grains_.quantityNames.size(); ++q)
+    scalars(grains_.quantityNames[q].c_str(), [&](std::int32_t i) { return grains_.quantities[q][i]; });
+  if (wants(quantity::velocity)) vectors(quantity::velocity, grains_.motion);
+  if (wants(quantity::spin) && grains_.turning) vectors(quantity::spin, grains_.spin);
+  if (wants(quantity::force)) vectors(quantity::force, grains_.force);
+  frame->walls = walls();
+  if (!scene_.output.contacts || stale_) return frame;
+
+  auto& list = const_cast<PairList&>(list_); // visiting changes nothing
+  pairForces_.visitContacts(grains_, list, [&](std::size_t p, const ContactBlock& b, int c) {
+    FrameContact contact;
+    const auto [i, j] = list_.pairs()[p];
+    contact.a = grains_.id[i];
+    contact.b = grains_.id[j];
+    contact.image = list_.image(p);
+    contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
+    contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
+    const double sum = b.radiusA[c] + b.radiusB[c];
+    contact.point =
+        wrapped(grains_.place[i].vec() - b.radiusA[c] * (sum - b.overlap[c]) / sum * contact.normal);
+    frame->contacts.push_back(contact);
+  });
+  std::sort(frame->contacts.begin(), frame->contacts.end(), [](const FrameContact& s, const FrameContact& t) {
+    return std::tie(s.a, s.b, s.image) < std::tie(t.a, t.b, t.image);
+  });
+  wallContacts_.visitContacts(
+      grains_, walls_,
+      [&](std::int32_t i, std::int32_t wall, const ContactBlock& b, int c, const WallTouch& touch) {
+        FrameContact contact;
+        contact.a = grains_.id[i];
+        contact.wall = wall;
+        contact.normal = touch.normal;
+        contact.force = b.normalForce[c] * touch.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
+        contact.point = wrapped(grains_.place[i].vec() - touch.distance * touch.normal);
+        frame->contacts.push_back(contact);
+      });
+  return frame;
+}
+
+Energies DemSolver::energies() const {
+  Energies e;
+  const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
+  for (std::int32_t i : idOrder()) {
+    const double m = grains_.mass(i);
+    Vec3 x = grains_.place[i].vec();
+    if (grains_.imaged)
+      for (int k = 0; k < 3; ++k)
+        x[k] += extent[k] * grains_.image[i][k]; // so falling through a periodic side is no jump
+    e.translational += 0.5 * m * grains_.motion[i].vec().squaredNorm();
+    e.gravitational -= m * scene_.gravity.dot(x);
+    if (grains_.turning) e.rotational += 0.5 / grains_.spin[i].w * grains_.spin[i].vec().squaredNorm();
+  }
+  if (!stale_)
+    e.elastic = pairForces_.storedEnergy(grains_, const_cast<PairList&>(list_)) +
+                wallContacts_.storedEnergy(grains_, walls_);
+  return e;
+}
+
+std::vector<GrainSeed> DemSolver::present() const {
+  std::vector<GrainSeed> all;
+  for (std::int32_t i : idOrder()) {
+    GrainSeed s;
+    s.id = grains_.id[i];
+    s.species = grains_.species[i];
+    s.radius = grains_.place[i].w;
+    s.position = wrapped(grains_.place[i].vec());
+    s.velocity = grains_.motion[i].vec();
+    if (grains_.turning) s.spin = grains_.spin[i].vec();
+    all.push_back(s);
+  }
+  return all;
+}
+
+std::vector<FrameWall> DemSolver::walls() const {
+  std::vector<FrameWall> all;
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    FrameWall wall;
+    wall.name = walls_[w].name;
+    wall.shape = walls_[w].shape;
+    wall.active = walls_[w].active;
+    if (!stale_) wallContacts_.total(grains_, static_cast<int>(w), wall.force, wall.torque);
+    all.push_back(std::move(wall));
+  }
+  return all;
+}
+
+namespace {
+
+template <class T> void put(Solver::State& state, const std::string& name, const std::vector<T>& values) {
+  auto& bytes = state[name];
+  bytes.resize(values.size() * sizeof(T));
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+}
+
+template <class T> void get(const Solver::State& state, const std::string& name, std::vector<T>& values) {
+  const auto it = state.find(name);
+  if (it == state.end() || it->second.size() % sizeof(T) != 0)
+    throw InputError(fmt::format(
+        "the checkpoint lacks '{}' or holds it in another size: it was written by another version", name));
+  values.resize(it->second.size() / sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), it->second.data(), it->second.size());
+}
+
+struct Counters {
+  std::int64_t step, nextId;
+  Flow flow;
+};
+
+} // namespace
+
+Solver::State DemSolver::save() {
+  prepare(); // a list that is due now would be built before the next step anyway
+  State s;
+  put(s, "place", grains_.place);
+  put(s, "motion", grains_.motion);
+  put(s, "force", grains_.force);
+  put(s, "listed", grains_.listed);
+  put(s, "spin", grains_.spin);
+  put(s, "torque", grains_.torque);
+  put(s, "id", grains_.id);
+  put(s, "species", grains_.species);
+  put(s, "material", grains_.material);
+  put(s, "image", grains_.image);
+  for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
+    put(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
+  put(s, "pairs.history", list_.historyArray());
+  put(s, "pairs.live", list_.liveArray());
+  put(s, "walls.history", wallContacts_.historyArray());
+  put(s, "walls.feature", wallContacts_.featureArray());
+  put(s, "walls.result", wallContacts_.resultArray());
+  std::vector<std::uint8_t> active;
+  for (const SolverWall& w : walls_)
+    active.push_back(w.active);
+  put(s, "walls.active", active);
+  put(s, "counters", std::vector<Counters>{{step_, nextId_, flow_}});
+  return s;
+}
+
+void DemSolver::load(const State& s) {
+  std::vector<std::uint8_t> active;
+  get(s, "walls.active", active);
+  if (active.size() != walls_.size())
+    throw InputError(fmt::format("the checkpoint has {} walls and the scene {}; it belongs to another scene",
+                                 active.size(), walls_.size()));
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    walls_[w].active = active[w] != 0;
+  get(s, "place", grains_.place);
+  get(s, "motion", grains_.motion);
+  get(s, "force", grains_.force);
+  get(s, "listed", grains_.listed);
+  get(s, "spin", grains_.spin);
+  get(s, "torque", grains_.torque);
+  get(s, "id", grains_.id);
+  get(s, "species", grains_.species);
+  get(s, "material", grains_.material);
+  get(s, "image", grains_.image);
+  for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
+    get(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
+
+  // The list as it was: built from the positions that it was built from. The sort is stable, so the storage
+  // order stays, and histories fit their pairs again.
+  const std::vector<Quad> now = grains_.place;
+  grains_.place = grains_.listed;
+  rebuild();
+  grains_.place = now;
+  const auto restore = [&](const char* name, auto& array) {
+    const std::size_t expected = array.size();
+    get(s, name, array);
+    if (array.size() != expected)
+      throw InputError(fmt::format(
+          "the checkpoint's '{}' does not fit the scene; it belongs to another scene or version", name));
+  };
+  restore("pairs.history", list_.historyArray());
+  restore("pairs.live", list_.liveArray());
+  restore("walls.history", wallContacts_.historyArray());
+  restore("walls.feature", wallContacts_.featureArray());
+  restore("walls.result", wallContacts_.resultArray());
+  std::vector<Counters> counters;
+  get(s, "counters", counters);
+  step_ = counters.at(0).step;
+  nextId_ = counters.at(0).nextId;
+  flow_ = counters.at(0).flow;
+  stale_ = false;
+  for (const Quad& q : grains_.place)
+    smallestRadius_ = std::min(smallestRadius_, q.w);
+}
+
+} // namespace sandglass

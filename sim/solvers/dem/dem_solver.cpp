@@ -1,0 +1,367 @@
+#include "sim/solvers/dem/dem_solver.h"
+
+#include "sim/base/error.h"
+#include "sim/solvers/dem/step_rule.h"
+#include "sim/walls/wall_registry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+namespace sandglass {
+
+namespace {
+
+/// Steps between two looks at the outlets: often enough for a smooth discharge curve (a millisecond or so),
+/// rare enough to cost nothing.
+constexpr int stepsBetweenOutletChecks = 50;
+constexpr std::int64_t grainsPerPiece = 1024;
+
+int materialIndex(const Scene& scene, const std::string& name) {
+  for (std::size_t k = 0; k < scene.materials.size(); ++k)
+    if (scene.materials[k].name == name) return static_cast<int>(k);
+  throw InputError(fmt::format("there is no material '{}'", name));
+}
+
+LawStack stackWith(const Scene& scene, const std::vector<std::shared_ptr<const Law>>& added) {
+  LawStack stack(scene);
+  for (const auto& law : added)
+    stack.add(law);
+  return stack;
+}
+
+} // namespace
+
+DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
+                     const std::vector<std::shared_ptr<const Law>>& added)
+    : scene_(scene), laws_(stackWith(scene, added)), parallel_(options.threads),
+      list_(scene.domain, laws_.historySize(), laws_.outputSize()), pairForces_(laws_), wallContacts_(laws_) {
+  const StepChoice choice = chooseStep(scene, laws_);
+  if (choice.step > choice.stableLimit)
+    throw InputError(fmt::format(
+        "the time step {:.3g} s is above the stable limit {:.3g} s ({}); lower time_step or raise "
+        "steps_per_contact",
+        choice.step, choice.stableLimit, choice.rule));
+  dt_ = choice.step;
+  double diameter = 0.0, smallest = 1e300;
+  for (const Species& s : scene.species) {
+    const SizeRange range = sizeRange(scene, s);
+    diameter += range.meanDiameter / static_cast<double>(scene.species.size());
+    smallest = std::min(smallest, range.smallest);
+  }
+  skin_ = scene.accuracy.skin * diameter;
+  smallestRadius_ = 0.5 * smallest;
+  grains_.turning = laws_.turning();
+  grains_.imaged = list_.periodic();
+  grains_.quantityNames = laws_.quantityNames();
+  grains_.quantities.resize(grains_.quantityNames.size());
+  for (const WallSpec& w : scene.walls) {
+    SolverWall wall{w.name, nullptr, materialIndex(scene, w.material), true};
+    for (const WallKind& kind : wallKinds())
+      if (kind.name == w.shape.kind) wall.shape = kind.make(w.shape.parameters);
+    if (!wall.shape) throw InputError(fmt::format("there is no wall kind '{}'", w.shape.kind));
+    walls_.push_back(std::move(wall));
+  }
+}
+
+void DemSolver::add(const std::vector<GrainSeed>& seeds) {
+  const std::size_t before = grains_.size();
+  grains_.resize(before + seeds.size());
+  for (std::size_t k = 0; k < seeds.size(); ++k) {
+    const GrainSeed& s = seeds[k];
+    const std::size_t i = before + k;
+    const Species& species = scene_.species.at(s.species);
+    const double mass = 4.0 / 3.0 * std::numbers::pi * s.radius * s.radius * s.radius *
+                        scene_.material(species.material).density;
+    grains_.place[i] = {s.position.x(), s.position.y(), s.position.z(), s.radius};
+    grains_.motion[i] = {s.velocity.x(), s.velocity.y(), s.velocity.z(), 1.0 / mass};
+    if (grains_.turning)
+      grains_.spin[i] = {s.spin.x(), s.spin.y(), s.spin.z(), 2.5 / (mass * s.radius * s.radius)};
+    grains_.id[i] = s.id;
+    grains_.species[i] = static_cast<std::int16_t>(s.species);
+    grains_.material[i] = static_cast<std::uint8_t>(materialIndex(scene_, species.material));
+    nextId_ = std::max(nextId_, s.id + 1);
+    flow_.massEntered += mass;
+    smallestRadius_ = std::min(smallestRadius_, s.radius);
+  }
+  flow_.grainsEntered += static_cast<std::int64_t>(seeds.size());
+  stale_ = stale_ || !seeds.empty();
+}
+
+void DemSolver::removeWall(const std::string& name) {
+  for (SolverWall& w : walls_)
+    if (w.name == name) {
+      w.active = false;
+      stale_ = true;
+      return;
+    }
+  throw InputError(fmt::format("there is no wall '{}' to remove", name));
+}
+
+void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
+  list_.build(grains_, laws_.range() + skin_, parallel_, drop);
+  wallContacts_.build(grains_, walls_, laws_.range() + 0.5 * skin_, parallel_);
+  ++rebuilds_;
+}
+
+void DemSolver::prepare() {
+  if (!stale_) return;
+  rebuild();
+  forces(0.0); // histories stand still; new grains get their first force
+  stale_ = false;
+}
+
+void DemSolver::advance(std::int64_t steps) {
+  prepare();
+  for (std::int64_t k = 0; k < steps; ++k)
+    stepOnce();
+}
+
+void DemSolver::stepOnce() {
+  if (drift()) {
+    checkEscapes();
+    rebuild();
+  }
+  forces(dt_);
+  kick();
+  ++step_;
+  if (step_ % stepsBetweenOutletChecks == 0) discharge();
+}
+
+bool DemSolver::drift() {
+  const double half = 0.5 * dt_, tooFar = 0.25 * skin_ * skin_;
+  const double tooFast = 0.0625 * smallestRadius_ * smallestRadius_ / (dt_ * dt_); // a quarter radius a step
+  std::atomic<bool> old{false}, bad{false};
+  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
+                     [&](std::int64_t first, std::int64_t last) {
+                       double farthest = 0.0;
+                       bool wrong = false;
+                       for (std::int64_t i = first; i < last; ++i) {
+                         Quad &x = grains_.place[i], &v = grains_.motion[i];
+                         const Quad &f = grains_.force[i], &l = grains_.listed[i];
+                         const double kick = half * v.w;
+                         v.x += kick * f.x;
+                         v.y += kick * f.y;
+                         v.z += kick * f.z;
+                         x.x += dt_ * v.x;
+                         x.y += dt_ * v.y;
+                         x.z += dt_ * v.z;
+                         const double dx = x.x - l.x, dy = x.y - l.y, dz = x.z - l.z;
+                         farthest = std::max(farthest, dx * dx + dy * dy + dz * dz);
+                         wrong = wrong || !(v.x * v.x + v.y * v.y + v.z * v.z <= tooFast); // catches NaN too
+                       }
+                       if (grains_.turning)
+                         for (std::int64_t i = first; i < last; ++i) {
+                           Quad& w = grains_.spin[i];
+                           const Quad& t = grains_.torque[i];
+                           const double kick = half * w.w;
+                           w.x += kick * t.x;
+                           w.y += kick * t.y;
+                           w.z += kick * t.z;
+                         }
+                       if (farthest > tooFar) old = true;
+                       if (wrong) bad = true;
+                     });
+  if (bad) reportBadMotion();
+  return old;
+}
+
+void DemSolver::forces(double dt) {
+  std::vector<PairEvent> events;
+  DeepestOverlap deepest;
+  pairForces_.step(grains_, list_, dt, parallel_, events, deepest);
+  wallContacts_.step(grains_, walls_, dt, parallel_, deepest);
+  if (!events.empty()) applyEvents(events);
+  const Vec3 g = scene_.gravity;
+  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
+                     [&](std::int64_t first, std::int64_t last) {
+                       for (std::int64_t i = first; i < last; ++i) {
+                         const double m = 1.0 / grains_.motion[i].w;
+                         grains_.force[i] = {m * g.x(), m * g.y(), m * g.z(), 0.0};
+                         if (grains_.turning) grains_.torque[i] = {};
+                       }
+                       gatherPairForces(grains_, list_, laws_, first, last);
+                       wallContacts_.gather(grains_, first, last);
+                     });
+  checkOverlap(deepest);
+}
+
+void DemSolver::kick() {
+  const double half = 0.5 * dt_;
+  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
+                     [&](std::int64_t first, std::int64_t last) {
+                       for (std::int64_t i = first; i < last; ++i) {
+                         Quad& v = grains_.motion[i];
+                         const Quad& f = grains_.force[i];
+                         const double kick = half * v.w;
+                         v.x += kick * f.x;
+                         v.y += kick * f.y;
+                         v.z += kick * f.z;
+                         if (!grains_.turning) continue;
+                         Quad& w = grains_.spin[i];
+                         const Quad& t = grains_.torque[i];
+                         const double turn = half * w.w;
+                         w.x += turn * t.x;
+                         w.y += turn * t.y;
+                         w.z += turn * t.z;
+                       }
+                     });
+}
+
+void DemSolver::applyEvents(std::vector<PairEvent>& events) {
+  std::sort(events.begin(), events.end(), [](const PairEvent& s, const PairEvent& t) {
+    return std::tie(s.idA, s.idB, s.imageKey, s.law) < std::tie(t.idA, t.idB, t.imageKey, t.law);
+  });
+  for (const PairEvent& e : events) {
+    const auto& entry = laws_.entries()[e.law];
+    const auto [i, j] = list_.pairs()[e.pair];
+    EventGrains grains;
+    for (int q : entry.quantities) {
+      grains.a.push_back(&grains_.quantities[q][i]);
+      grains.b.push_back(&grains_.quantities[q][j]);
+    }
+    entry.law->onEvent(e.event, list_.history(e.pair) + entry.firstHistory, grains);
+  }
+  for (const PairEvent& e : events)
+    if (e.torn) std::fill_n(list_.history(e.pair), list_.historySize(), 0.0);
+}
+
+void DemSolver::discharge() {
+  if (scene_.outlets.empty()) return;
+  std::vector<std::uint8_t> drop;
+  for (const OutletSpec& outlet : scene_.outlets) {
+    const Vec3 n = outlet.normal.normalized();
+    for (std::size_t i = 0; i < grains_.size(); ++i) {
+      if ((grains_.place[i].vec() - outlet.point).dot(n) <= 0.0) continue;
+      if (drop.empty()) drop.assign(grains_.size(), 0);
+      drop[i] = 1;
+    }
+  }
+  if (drop.empty()) return;
+  if (laws_.hasEvents()) { // conserved quantities of live pairs go back to their owners first
+    std::vector<PairEvent> events;
+    for (std::size_t p = 0; p < list_.size(); ++p) {
+      const auto [i, j] = list_.pairs()[p];
+      if (!list_.live()[p] || !(drop[i] || drop[j])) continue;
+      for (std::size_t l = 0; l < laws_.entries().size(); ++l)
+        if (laws_.entries()[l].role == LawRole::gap)
+          events.push_back({grains_.id[i], grains_.id[j], list_.imageKey(p), static_cast<std::int32_t>(p),
+                            static_cast<std::int16_t>(l), deathEvent, true});
+    }
+    applyEvents(events);
+  }
+  for (std::int32_t i : idOrder()) {
+    if (!drop[i]) continue;
+    ++flow_.grainsDischarged;
+    flow_.massDischarged += grains_.mass(i);
+  }
+  flow_.lastDischarge = time();
+  rebuild(drop);
+}
+
+void DemSolver::checkOverlap(const DeepestOverlap& deepest) const {
+  if (deepest.share <= scene_.accuracy.maximumOverlap) return;
+  const std::string partner = deepest.idB >= 0 ? fmt::format("grain {}", deepest.idB)
+                                               : fmt::format("wall '{}'", walls_[deepest.wall].name);
+  throw RunError(fmt::format(
+      "at {:.6g} s (step {}) grain {} and {} overlap by {:.0f} % of the smaller radius, above the {:.0f} % "
+      "of maximum_overlap; stiffen the contact, lower the speeds or raise maximum_overlap",
+      time(), step_, deepest.idA, partner, 100 * deepest.share, 100 * scene_.accuracy.maximumOverlap));
+}
+
+void DemSolver::reportBadMotion() const {
+  for (std::int32_t i : idOrder()) {
+    const Vec3 v = grains_.motion[i].vec();
+    if (!v.allFinite() || !grains_.place[i].vec().allFinite())
+      throw RunError(fmt::format(
+          "at {:.6g} s (step {}) the position or velocity of grain {} is not a number; the step is too "
+          "long or a force has no bound: lower time_step",
+          time(), step_, grains_.id[i]));
+    if (v.norm() * dt_ > 0.25 * smallestRadius_)
+      throw RunError(fmt::format(
+          "at {:.6g} s (step {}) grain {} moves {:.3g} m in one step, more than a quarter of the smallest "
+          "radius ({:.3g} m), and could jump over a contact; lower time_step",
+          time(), step_, grains_.id[i], v.norm() * dt_, smallestRadius_));
+  }
+  throw RunError(
+      fmt::format("at {:.6g} s (step {}) the motion of a grain went out of bounds", time(), step_));
+}
+
+void DemSolver::checkEscapes() const {
+  for (int k = 0; k < 3; ++k) {
+    if (scene_.domain.periodic[k]) continue;
+    const double low = scene_.domain.lower[k], high = scene_.domain.upper[k];
+    for (std::size_t i = 0; i < grains_.size(); ++i) {
+      const double x = grains_.place[i].vec()[k];
+      if (x >= low && x <= high) continue;
+      throw RunError(fmt::format(
+          "at {:.6g} s (step {}) grain {} left the domain: {} = {:.6g} m is outside {:.6g} ... {:.6g} m; "
+          "close the walls, widen the domain or add an outlet",
+          time(), step_, grains_.id[i], "xyz"[k], x, low, high));
+    }
+  }
+}
+
+bool DemSolver::isFree(const Vec3& position, double radius) const {
+  for (const SolverWall& w : walls_) {
+    if (!w.active) continue;
+    WallShape::Touches touches;
+    w.shape->touches(position, radius, touches);
+    if (touches.count > 0 || w.shape->signedDistance(position) < 0.0) return false;
+  }
+  const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
+  for (const Quad& q : grains_.place) {
+    Vec3 d = q.vec() - position;
+    for (int k = 0; k < 3; ++k)
+      if (scene_.domain.periodic[k]) d[k] -= extent[k] * std::round(d[k] / extent[k]);
+    const double reach = q.w + radius;
+    if (d.squaredNorm() < reach * reach) return false;
+  }
+  return true;
+}
+
+std::vector<double> DemSolver::quantity(const std::string& name) const {
+  const auto& names = grains_.quantityNames;
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end())
+    throw InputError(fmt::format("no law of this scene keeps a grain quantity '{}'", name));
+  std::vector<double> values;
+  for (std::int32_t i : idOrder())
+    values.push_back(grains_.quantities[at - names.begin()][i]);
+  return values;
+}
+
+void DemSolver::setQuantity(const std::string& name, const std::vector<double>& values) {
+  const auto& names = grains_.quantityNames;
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end())
+    throw InputError(fmt::format("no law of this scene keeps a grain quantity '{}'", name));
+  if (values.size() != grains_.size())
+    throw InputError(
+        fmt::format("{} values of '{}' were given for {} grains", values.size(), name, grains_.size()));
+  const auto order = idOrder();
+  for (std::size_t k = 0; k < order.size(); ++k)
+    grains_.quantities[at - names.begin()][order[k]] = values[k];
+}
+
+std::vector<std::int32_t> DemSolver::idOrder() const {
+  std::vector<std::int32_t> order(grains_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::int32_t a, std::int32_t b) { return grains_.id[a] < grains_.id[b]; });
+  return order;
+}
+
+double DemSolver::bytesPerGrain() const {
+  if (grains_.size() == 0) return static_cast<double>(grains_.bytesPerGrain());
+  return static_cast<double>(grains_.bytesPerGrain()) +
+         static_cast<double>(list_.bytes()) / static_cast<double>(grains_.size());
+}
+
+} // namespace sandglass

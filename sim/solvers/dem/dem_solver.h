@@ -1,0 +1,82 @@
+#pragma once
+// Soft-sphere discrete element method: contact laws over a neighbour list, velocity Verlet.
+// Bit-equal for any number of threads and across save and load.
+
+#include "sim/base/parallel.h"
+#include "sim/contact/law_stack.h"
+#include "sim/contact/pair_forces.h"
+#include "sim/contact/pair_list.h"
+#include "sim/contact/wall_contacts.h"
+#include "sim/solvers/solver.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sandglass {
+
+class DemSolver final : public Solver {
+public:
+  /// `added`: laws beside those that the scene names. Throws InputError when the scene cannot be run so.
+  explicit DemSolver(const Scene& scene, const SolverOptions& options = {},
+                     const std::vector<std::shared_ptr<const Law>>& added = {});
+
+  void add(const std::vector<GrainSeed>& grains) override;
+  void removeWall(const std::string& name) override;
+  void advance(std::int64_t steps) override;
+
+  double time() const override { return static_cast<double>(step_) * dt_; }
+  std::int64_t step() const override { return step_; }
+  double stepSize() const override { return dt_; }
+  std::size_t grains() const override { return grains_.size(); }
+  std::int64_t nextId() const override { return nextId_; }
+  bool isFree(const Vec3& position, double radius) const override;
+
+  FramePtr frame() const override;
+  Energies energies() const override;
+  const Flow& flow() const override { return flow_; }
+  std::vector<GrainSeed> present() const override;
+  std::vector<FrameWall> walls() const override;
+
+  State save() override;
+  void load(const State& state) override;
+
+  /// Conserved quantity of a law, in id order of the grains now present.
+  std::vector<double> quantity(const std::string& name) const;
+  void setQuantity(const std::string& name, const std::vector<double>& values);
+
+  // For benches and `explain`.
+  std::size_t pairsListed() const { return list_.size(); }
+  std::int64_t rebuilds() const { return rebuilds_; }
+  double bytesPerGrain() const;
+
+private:
+  void rebuild(const std::vector<std::uint8_t>& drop = {});
+  void prepare(); ///< fresh list and forces after grains or walls have changed
+  void stepOnce();
+  bool drift(); ///< first half kick and move; true when the list has become too old
+  void forces(double dt);
+  void kick(); ///< second half kick
+  void applyEvents(std::vector<PairEvent>& events);
+  void discharge(); ///< takes out what has passed an outlet
+  void checkOverlap(const DeepestOverlap& deepest) const;
+  [[noreturn]] void reportBadMotion() const;
+  void checkEscapes() const;
+  std::vector<std::int32_t> idOrder() const;
+  Vec3 wrapped(Vec3 x) const;
+
+  Scene scene_;
+  LawStack laws_;
+  Parallel parallel_;
+  GrainStore grains_;
+  PairList list_;
+  PairForces pairForces_;
+  WallContacts wallContacts_;
+  std::vector<SolverWall> walls_;
+  double dt_ = 0, skin_ = 0, smallestRadius_ = 0;
+  std::int64_t step_ = 0, nextId_ = 0, rebuilds_ = 0;
+  bool stale_ = true;
+  Flow flow_;
+};
+
+} // namespace sandglass

@@ -1,0 +1,92 @@
+#include "sim/solvers/dem/step_rule.h"
+
+#include "sim/base/error.h"
+#include "sim/grains/seeding.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace sandglass {
+
+namespace {
+
+/// Smallest grain of a material: radius and mass; infinite for a wall's material.
+struct Smallest {
+  double radius = std::numeric_limits<double>::infinity();
+  double mass = std::numeric_limits<double>::infinity();
+};
+
+Smallest smallestGrain(const Scene& scene, const Material& material) {
+  Smallest s;
+  for (const Species& species : scene.species) {
+    if (species.material != material.name) continue;
+    const double r = 0.5 * sizeRange(scene, species).smallest;
+    if (r >= s.radius) continue;
+    s.radius = r;
+    s.mass = 4.0 / 3.0 * std::numbers::pi * r * r * r * material.density;
+  }
+  return s;
+}
+
+double harmonic(double a, double b) {
+  return std::isinf(a) ? b : std::isinf(b) ? a : a * b / (a + b);
+}
+
+} // namespace
+
+double impactSpeed(const Scene& scene) {
+  double fastest = 0.0;
+  for (const FillSpec& fill : scene.fills)
+    for (const char* name : {"velocity"})
+      if (fill.how.parameters.has(name)) fastest = std::max(fastest, fill.how.parameters.vector(name).norm());
+  const Vec3 g = scene.gravity;
+  double height = 0.0;
+  if (g.norm() > 0.0)
+    for (int k = 0; k < 3; ++k)
+      if (!scene.domain.periodic[k])
+        height += std::abs(g[k]) / g.norm() * (scene.domain.upper[k] - scene.domain.lower[k]);
+  if (!std::isfinite(height)) height = 1.0;
+  return std::max({std::sqrt(2.0 * g.norm() * height), 2.0 * fastest, 1e-3});
+}
+
+StepChoice chooseStep(const Scene& scene, const LawStack& laws) {
+  StepChoice choice;
+  choice.shortestContact = std::numeric_limits<double>::infinity();
+  const double speed = impactSpeed(scene);
+  std::string pair;
+  for (std::size_t a = 0; a < scene.materials.size(); ++a)
+    for (std::size_t b = a; b < scene.materials.size(); ++b) {
+      const int type = laws.typeOf(static_cast<int>(a), static_cast<int>(b));
+      if (!laws.context().types[type].used) continue;
+      const Smallest s = smallestGrain(scene, scene.materials[a]),
+                     t = smallestGrain(scene, scene.materials[b]);
+      const double mass = harmonic(s.mass, t.mass), radius = harmonic(s.radius, t.radius);
+      for (const auto& entry : laws.entries()) {
+        const double tc = entry.law->collisionTime(type, mass, radius, speed);
+        if (tc >= choice.shortestContact) continue;
+        choice.shortestContact = tc;
+        pair = scene.materials[a].name + " on " + scene.materials[b].name;
+      }
+    }
+  if (!std::isfinite(choice.shortestContact))
+    throw InputError("no two materials of the scene can touch, so no time step follows; add a [[contact]]");
+  choice.stableLimit = choice.shortestContact / 5.0;
+  if (scene.accuracy.timeStep) {
+    choice.step = *scene.accuracy.timeStep;
+    choice.rule = fmt::format("given by the scene: {:.1f} steps in the shortest collision ({}, {:.3g} s); "
+                              "stable below a fifth of it",
+                              choice.shortestContact / choice.step, pair, choice.shortestContact);
+  } else {
+    choice.step = choice.shortestContact / scene.accuracy.stepsPerContact;
+    choice.rule = fmt::format("the shortest collision ({}, {:.3g} s) divided by steps_per_contact = {:g}; "
+                              "stable below a fifth of it",
+                              pair, choice.shortestContact, scene.accuracy.stepsPerContact);
+  }
+  return choice;
+}
+
+} // namespace sandglass
