@@ -232,7 +232,8 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   over.width = view.width;
   over.height = view.height;
   over.background = view.background;
-  over.title = view.title;
+  const auto sceneTitle = frame.provenance.find("title");
+  over.title = view.title.empty() && sceneTitle != frame.provenance.end() ? sceneTitle->second : view.title;
   over.time = view.timeStamp ? timeText(frame.time) : "";
   over.legend = view.legend && view.grains ? colours.legend : std::nullopt;
   over.axes.reset();

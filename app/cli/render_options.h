@@ -1,0 +1,33 @@
+#pragma once
+// What `sandglass render` is asked for, and the small languages of its options.
+
+#include "vis/renderer.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sandglass::cli {
+
+struct RenderOptions {
+  std::vector<std::string> sources;
+  std::string folder, movie, reference;
+  std::string viewFile, camera, colour, map, range, size, frames, backend = "auto";
+  std::vector<std::string> clips;
+  std::optional<double> at; ///< [s]
+  int every = 1;
+  double framesPerSecond = 25, threshold = 0.001;
+  bool transparent = false, orthographic = false;
+};
+
+/// The view file with the options laid over it. Throws InputError for every option that makes no sense.
+vis::View viewOf(const RenderOptions& options);
+
+/// Indices of the frames to draw, out of `times`. Throws InputError when none is left.
+std::vector<std::size_t> chosenFrames(const RenderOptions& options, const std::vector<double>& times,
+                                      const std::string& source);
+
+vis::GlBackend backendOf(const std::string& name);
+
+} // namespace sandglass::cli
