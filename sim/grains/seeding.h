@@ -14,11 +14,11 @@ namespace sandglass {
 
 struct GrainSeed {
   std::int64_t id = 0;
-  int species = 0;                 ///< index into Scene::species
-  double radius = 0;               ///< [m]
-  Vec3 position = Vec3::Zero();    ///< [m]
-  Vec3 velocity = Vec3::Zero();    ///< [m/s]
-  Vec3 spin = Vec3::Zero();        ///< [rad/s]
+  int species = 0;              ///< index into Scene::species
+  double radius = 0;            ///< [m]
+  Vec3 position = Vec3::Zero(); ///< [m]
+  Vec3 velocity = Vec3::Zero(); ///< [m/s]
+  Vec3 spin = Vec3::Zero();     ///< [rad/s]
 };
 
 /// Grains placed at once, before the first step of their stage, by all fillings of `stage` but "rain".

@@ -13,52 +13,63 @@
 
 namespace sandglass {
 
+inline bool operator==(const Domain& a, const Domain& b) {
+  return a.lower == b.lower && a.upper == b.upper && a.periodic == b.periodic;
+}
+
 /// A kind from one of the registries together with its values.
 struct Choice {
   std::string kind;
   Parameters parameters;
+  bool operator==(const Choice&) const = default;
 };
 
 struct Material {
   std::string name;
-  double density = 0;               ///< [kg/m^3]; walls' materials need none (0)
+  double density = 0;                  ///< [kg/m^3]; walls' materials need none (0)
   std::optional<double> youngsModulus; ///< [Pa], needed by Hertzian laws
   std::optional<double> poissonRatio;  ///< -1 < nu <= 0.5
+  bool operator==(const Material&) const = default;
 };
 
 /// How two materials touch. One per unordered pair of materials that can meet.
 struct ContactSpec {
-  std::string first, second;       ///< material names
-  Choice normal;                   ///< "linear", "hertz"
-  Choice tangential;               ///< "none", "spring", ... (kind "none" when the scene leaves it out)
-  Choice rolling;                  ///< "none", "elastic_plastic"
-  std::vector<Choice> gap;         ///< further laws (bridges, ...), usually empty
+  std::string first, second; ///< material names
+  Choice normal;             ///< "linear", "hertz"
+  Choice tangential;         ///< "none", "spring", ... (kind "none" when the scene leaves it out)
+  Choice rolling;            ///< "none", "elastic_plastic"
+  std::vector<Choice> gap;   ///< further laws (bridges, ...), usually empty
+  bool operator==(const ContactSpec&) const = default;
 };
 
 /// Diameters of a species; the registry of distributions is in sim/grains.
 struct Species {
   std::string name;
   std::string material;
-  Choice size;                     ///< "single", "uniform", "normal", "lognormal", "table"
+  Choice size; ///< "single", "uniform", "normal", "lognormal", "table"
+  bool operator==(const Species&) const = default;
 };
 
 struct WallSpec {
   std::string name;
   std::string material;
-  Choice shape;                    ///< a WallKind
+  Choice shape; ///< a WallKind
+  bool operator==(const WallSpec&) const = default;
 };
 
 /// One species' share of a filling.
 struct Share {
   std::string species;
-  double fraction = 1;             ///< of number or mass, as FillSpec::byMass says; shares sum to 1
+  double fraction = 1; ///< of number or mass, as FillSpec::byMass says; shares sum to 1
+  bool operator==(const Share&) const = default;
 };
 
 struct FillSpec {
-  Choice how;                      ///< "random", "rain", "lattice", "list"
-  std::vector<Share> mixture;      ///< empty for "list", whose rows name their species
+  Choice how;                 ///< "random", "rain", "lattice", "list"
+  std::vector<Share> mixture; ///< empty for "list", whose rows name their species
   bool byMass = false;
-  std::string stage;               ///< when it happens: name of a stage; the first by default
+  std::string stage; ///< when it happens: name of a stage; the first by default
+  bool operator==(const FillSpec&) const = default;
 };
 
 /// When a stage ends: at the first condition met.
@@ -71,40 +82,45 @@ struct StageSpec {
   bool untilEmpty = false;                    ///< no grain left
   std::optional<double> massDischarged;       ///< [kg]
   std::optional<double> quietTime;            ///< [s] without any grain leaving
+  bool operator==(const StageSpec&) const = default;
 };
 
 /// Grains beyond this plane (on the side its normal points to) leave the run and count as discharged.
 struct OutletSpec {
   std::string name;
   Vec3 point = Vec3::Zero(), normal = -Vec3::UnitY();
+  bool operator==(const OutletSpec&) const = default;
 };
 
 struct ProbeSpec {
   std::string name;
-  Choice what;                     ///< "energies", "mass_in_region", "flow_rate", "wall_force"
-  double interval = 0;             ///< [s]
+  Choice what;         ///< "energies", "mass_in_region", "flow_rate", "wall_force"
+  double interval = 0; ///< [s]
+  bool operator==(const ProbeSpec&) const = default;
 };
 
 struct OutputSpec {
-  double frameInterval = 0;        ///< [s]; 0: no frames but the first and the last
-  double checkpointInterval = 0;   ///< [s] simulated; 0: chosen so that a run leaves 20
+  double frameInterval = 0;            ///< [s]; 0: no frames but the first and the last
+  double checkpointInterval = 0;       ///< [s] simulated; 0: chosen so that a run leaves 20
   std::vector<std::string> quantities; ///< optional quantities to write
   bool contacts = false;
   bool singlePrecisionPositions = false;
+  bool operator==(const OutputSpec&) const = default;
 };
 
 /// The knobs that trade speed for accuracy.
 struct AccuracySpec {
-  std::string level = "standard";  ///< "draft", "standard", "reference"
-  double stepsPerContact = 0;      ///< steps in the shortest collision; > 0 after resolution
-  std::optional<double> timeStep;  ///< [s], when the scene fixes it
-  double skin = 0;                 ///< list skin as a share of the mean grain diameter
-  double maximumOverlap = 0;       ///< share of the smaller radius at which the run stops
+  std::string level = "standard"; ///< "draft", "standard", "reference"
+  double stepsPerContact = 0;     ///< steps in the shortest collision; > 0 after resolution
+  std::optional<double> timeStep; ///< [s], when the scene fixes it
+  double skin = 0;                ///< list skin as a share of the mean grain diameter
+  double maximumOverlap = 0;      ///< share of the smaller radius at which the run stops
+  bool operator==(const AccuracySpec&) const = default;
 };
 
 struct Scene {
   std::string title, description;
-  std::string file;                ///< where it came from; for messages only
+  std::string file; ///< where it came from; for messages only
   std::uint64_t seed = 1;
   std::string solver = "dem";
   Vec3 gravity = Vec3(0, 0, -9.81); ///< [m/s^2]
@@ -123,6 +139,7 @@ struct Scene {
   const Material& material(const std::string& name) const;
   const Species& speciesNamed(const std::string& name) const;
   const ContactSpec& contact(const std::string& a, const std::string& b) const;
+  bool operator==(const Scene&) const = default;
 };
 
 /// Reads and checks a scene. Throws InputError with every fault found.

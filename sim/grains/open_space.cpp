@@ -1,0 +1,63 @@
+#include "sim/grains/open_space.h"
+
+#include "sim/walls/wall_registry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandglass {
+
+namespace {
+
+bool removedBy(const Scene& scene, const std::string& stage, const std::string& wall) {
+  for (const auto& s : scene.stages) {
+    if (std::find(s.removeWalls.begin(), s.removeWalls.end(), wall) != s.removeWalls.end()) return true;
+    if (s.name == stage) break;
+  }
+  return false;
+}
+
+} // namespace
+
+OpenSpace::OpenSpace(const Scene& scene, const std::string& stage)
+    : domain_(scene.domain), outlets_(scene.outlets) {
+  for (const auto& wall : scene.walls) {
+    if (removedBy(scene, stage, wall.name)) continue;
+    for (const auto& kind : wallKinds())
+      if (kind.name == wall.shape.kind) walls_.push_back({wall.name, kind.make(wall.shape.parameters)});
+  }
+}
+
+std::string OpenSpace::obstacle(const Vec3& centre, double radius, double mayOverlap) const {
+  for (int k = 0; k < 3; ++k)
+    if (!domain_.periodic[static_cast<std::size_t>(k)] &&
+        (centre[k] < domain_.lower[k] || centre[k] > domain_.upper[k]))
+      return "the domain";
+  for (const auto& outlet : outlets_)
+    if ((centre - outlet.point).dot(outlet.normal) > 0) return "the outlet '" + outlet.name + "'";
+  const double needed = radius * (1 - mayOverlap);
+  for (const auto& wall : walls_) {
+    if (wall.shape->signedDistance(centre) < needed) return "the wall '" + wall.name + "'";
+    WallShape::Touches touches;
+    wall.shape->touches(centre, needed, touches);
+    for (int i = 0; i < touches.count; ++i)
+      if (touches.at[static_cast<std::size_t>(i)].distance < needed) return "the wall '" + wall.name + "'";
+  }
+  return "";
+}
+
+bool OpenSpace::admits(const Vec3& centre, double radius, double mayOverlap) const {
+  return obstacle(centre, radius, mayOverlap).empty();
+}
+
+Vec3 OpenSpace::wrapped(Vec3 point) const {
+  for (int k = 0; k < 3; ++k) {
+    if (!domain_.periodic[static_cast<std::size_t>(k)]) continue;
+    const double length = domain_.upper[k] - domain_.lower[k];
+    point[k] -= length * std::floor((point[k] - domain_.lower[k]) / length);
+    if (point[k] >= domain_.upper[k]) point[k] = domain_.lower[k];
+  }
+  return point;
+}
+
+} // namespace sandglass

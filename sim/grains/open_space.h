@@ -1,0 +1,39 @@
+#pragma once
+// Where a stage lets grains be: inside the domain, on the right side of every wall that stands, short of
+// outlets.
+
+#include "sim/scene/scene.h"
+#include "sim/walls/wall_shape.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sandglass {
+
+class OpenSpace {
+public:
+  /// The walls that stand once `stage` has begun.
+  OpenSpace(const Scene& scene, const std::string& stage);
+
+  /// Whether a sphere there touches no wall and has not left. A part of `mayOverlap` of its radius may stick
+  /// into a wall.
+  bool admits(const Vec3& centre, double radius, double mayOverlap = 0) const;
+  /// Name of the wall (or "the outlet NAME", "the domain") that forbids it, "" when it is admitted.
+  std::string obstacle(const Vec3& centre, double radius, double mayOverlap = 0) const;
+
+  /// The same point inside the domain along periodic axes.
+  Vec3 wrapped(Vec3 point) const;
+  const Domain& domain() const { return domain_; }
+
+private:
+  struct Wall {
+    std::string name;
+    std::shared_ptr<const WallShape> shape;
+  };
+  Domain domain_;
+  std::vector<Wall> walls_;
+  std::vector<OutletSpec> outlets_;
+};
+
+} // namespace sandglass

@@ -1,0 +1,243 @@
+// The keys of the fixed tables: names, dimensions, ranges, defaults.
+#include "sim/scene/scene_sections.h"
+
+namespace sandglass {
+
+namespace {
+
+using enum ParameterType;
+
+const ParameterSpec name{
+    .name = "name", .type = text, .unit = "1", .description = "by which the rest of the scene calls it"};
+const ParameterSpec materialName{
+    .name = "material", .type = text, .unit = "1", .description = "name of a [[material]]"};
+
+ParameterSpec positive(const char* key, const char* unit, const char* description) {
+  return {.name = key,
+          .type = number,
+          .unit = unit,
+          .description = description,
+          .optional = true,
+          .minimum = 0,
+          .openMinimum = true};
+}
+
+} // namespace
+
+const Keys& sceneKeys() {
+  static const Keys keys{
+      {.name = "title", .type = text, .unit = "1", .description = "one line", .fallback = std::string()},
+      {.name = "description",
+       .type = text,
+       .unit = "1",
+       .description = "any length",
+       .fallback = std::string()},
+      {.name = "seed",
+       .type = integer,
+       .unit = "1",
+       .description = "of all random numbers",
+       .fallback = std::int64_t{1},
+       .minimum = 0},
+      {.name = "solver",
+       .type = text,
+       .unit = "1",
+       .description = "method",
+       .fallback = std::string("dem"),
+       .choices = {"dem"}},
+      {.name = "gravity",
+       .type = vector,
+       .unit = "m/s^2",
+       .description = "acceleration of all grains",
+       .fallback = Vec3(0, 0, -9.81),
+       .minimum = -1e6,
+       .maximum = 1e6}};
+  return keys;
+}
+
+const Keys& domainKeys() {
+  static const Keys keys{
+      {.name = "lower", .type = vector, .unit = "m", .description = "lower corner of the space"},
+      {.name = "upper", .type = vector, .unit = "m", .description = "upper corner of the space"},
+      {.name = "periodic",
+       .type = texts,
+       .unit = "1",
+       .description = "periodic directions",
+       .fallback = std::vector<std::string>{},
+       .choices = {"x", "y", "z"}}};
+  return keys;
+}
+
+const Keys& materialKeys() {
+  static const Keys keys{name,
+                         positive("density", "kg/m^3", "of the solid; walls need none"),
+                         positive("youngs_modulus", "Pa", "needed by Hertzian laws"),
+                         {.name = "poisson_ratio",
+                          .type = number,
+                          .unit = "1",
+                          .description = "needed by Hertzian laws",
+                          .optional = true,
+                          .minimum = -1,
+                          .maximum = 0.5,
+                          .openMinimum = true}};
+  return keys;
+}
+
+const Keys& contactKeys() {
+  static const Keys keys{{.name = "between", .type = texts, .unit = "1", .description = "the two materials"}};
+  return keys;
+}
+
+const Keys& speciesKeys() {
+  static const Keys keys{name, materialName};
+  return keys;
+}
+
+const Keys& wallKeys() {
+  return speciesKeys();
+}
+
+const Keys& outletKeys() {
+  static const Keys keys{
+      name,
+      {.name = "point", .type = vector, .unit = "m", .description = "a point of the plane"},
+      {.name = "normal", .type = vector, .unit = "1", .description = "points to where grains are taken out"}};
+  return keys;
+}
+
+const Keys& fillKeys() {
+  static const Keys keys{{.name = "stage",
+                          .type = text,
+                          .unit = "1",
+                          .description = "name of the stage in which it happens (the first)",
+                          .optional = true},
+                         {.name = "species",
+                          .type = text,
+                          .unit = "1",
+                          .description = "name of a [[species]]",
+                          .optional = true},
+                         {.name = "by",
+                          .type = text,
+                          .unit = "1",
+                          .description = "whether the mixture's fractions are of number or mass",
+                          .fallback = std::string("number"),
+                          .choices = {"number", "mass"}}};
+  return keys;
+}
+
+const Keys& shareKeys() {
+  static const Keys keys{
+      {.name = "species", .type = text, .unit = "1", .description = "name of a [[species]]"},
+      {.name = "fraction",
+       .type = number,
+       .unit = "1",
+       .description = "its share",
+       .minimum = 0,
+       .maximum = 1}};
+  return keys;
+}
+
+const Keys& stageKeys() {
+  static const Keys keys{name,
+                         {.name = "remove_walls",
+                          .type = texts,
+                          .unit = "1",
+                          .description = "walls that vanish as it begins",
+                          .fallback = std::vector<std::string>{}}};
+  return keys;
+}
+
+const Keys& untilKeys() {
+  static const Keys keys{
+      positive("duration", "s", "time from the start of the stage"),
+      positive("settled", "J", "mean kinetic energy of a grain below which the bed is at rest"),
+      {.name = "settled_after",
+       .type = number,
+       .unit = "s",
+       .description = "earliest time at which 'settled' counts",
+       .fallback = 0.0,
+       .minimum = 0},
+      {.name = "empty", .type = boolean, .unit = "1", .description = "no grain is left", .fallback = false},
+      positive("mass_discharged", "kg", "mass that has left through outlets"),
+      positive("quiet", "s", "time without any grain leaving")};
+  return keys;
+}
+
+const Keys& probeKeys() {
+  static const Keys keys{name,
+                         {.name = "interval",
+                          .type = number,
+                          .unit = "s",
+                          .description = "between samples",
+                          .minimum = 0,
+                          .openMinimum = true}};
+  return keys;
+}
+
+const Keys& outputKeys() {
+  static const Keys keys{{.name = "frame_interval",
+                          .type = number,
+                          .unit = "s",
+                          .description = "between frames; 0: first and last only",
+                          .fallback = 0.0,
+                          .minimum = 0},
+                         {.name = "checkpoint_interval",
+                          .type = number,
+                          .unit = "s",
+                          .description = "between checkpoints; 0: 20 in a run",
+                          .fallback = 0.0,
+                          .minimum = 0},
+                         {.name = "quantities",
+                          .type = texts,
+                          .unit = "1",
+                          .description = "what frames carry beside positions and radii",
+                          .fallback = std::vector<std::string>{"velocity"},
+                          .choices = {"radius", "mass", "species", "velocity", "spin", "force"}},
+                         {.name = "contacts",
+                          .type = boolean,
+                          .unit = "1",
+                          .description = "whether frames carry the contacts",
+                          .fallback = false},
+                         {.name = "positions",
+                          .type = text,
+                          .unit = "1",
+                          .description = "precision of positions in frames",
+                          .fallback = std::string("double"),
+                          .choices = {"double", "single"}}};
+  return keys;
+}
+
+const Keys& accuracyKeys() {
+  static const Keys keys{{.name = "level",
+                          .type = text,
+                          .unit = "1",
+                          .description = "fills in the knobs that are not given",
+                          .fallback = std::string("standard"),
+                          .choices = {"draft", "standard", "reference"}},
+                         {.name = "steps_per_contact",
+                          .type = number,
+                          .unit = "1",
+                          .description = "steps in the shortest collision",
+                          .optional = true,
+                          .minimum = 10,
+                          .maximum = 10000},
+                         positive("time_step", "s", "step, when the scene fixes it"),
+                         {.name = "skin",
+                          .type = number,
+                          .unit = "1",
+                          .description = "of neighbour lists, as a share of the mean diameter",
+                          .fallback = 0.15,
+                          .minimum = 0,
+                          .maximum = 2,
+                          .openMinimum = true},
+                         {.name = "maximum_overlap",
+                          .type = number,
+                          .unit = "1",
+                          .description = "share of the smaller radius at which a run stops",
+                          .fallback = 0.5,
+                          .minimum = 0,
+                          .maximum = 1,
+                          .openMinimum = true}};
+  return keys;
+}
+
+} // namespace sandglass

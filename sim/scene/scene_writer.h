@@ -1,0 +1,13 @@
+#pragma once
+// The text behind writeScene() and sceneHash().
+
+#include "sim/scene/scene.h"
+
+#include <string>
+
+namespace sandglass {
+
+/// The resolved scene as TOML; without title and description when `withTexts` is false.
+std::string sceneText(const Scene& scene, bool withTexts);
+
+} // namespace sandglass
