@@ -3,10 +3,12 @@
 // own, and the only reductions are maxima.
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace sandglass {
@@ -15,7 +17,10 @@ class Parallel {
 public:
   /// threads = 0: all cores.
   explicit Parallel(int threads)
-      : threads_(threads > 0 ? threads : tbb::info::default_concurrency()), arena_(threads_) {}
+      : threads_(threads > 0 ? threads : tbb::info::default_concurrency()),
+        limit_(tbb::global_control::max_allowed_parallelism, // more threads than cores, where somebody asks
+               static_cast<std::size_t>(std::max(threads_, tbb::info::default_concurrency()))),
+        arena_(threads_) {}
 
   int threads() const { return threads_; }
 
@@ -35,6 +40,7 @@ public:
 
 private:
   int threads_;
+  tbb::global_control limit_;
   tbb::task_arena arena_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Small scenes for exact-answer tests of the contact core, as TOML text that the scene reader checks as usual.
+// Small scenes for exact-answer tests of the contact core, as TOML text that the scene reader checks as
+// usual.
 
 #include "sim/scene/scene.h"
 #include "sim/solvers/dem/dem_solver.h"
@@ -16,15 +17,16 @@ struct SceneText {
   std::string periodic = "[]";
   std::string lower = R"(["-1 m", "-1 m", "-1 m"])", upper = R"(["1 m", "1 m", "1 m"])";
   std::string normal = R"({ law = "linear", stiffness = "1000 N/m", restitution = 0.9 })";
-  std::string wallNormal;     ///< as `normal` when empty
+  std::string wallNormal; ///< as `normal` when empty
   std::string tangential = R"({ law = "none" })";
   std::string rolling = R"({ law = "none" })";
-  std::string elasticity;     ///< extra lines for both materials
+  std::string elasticity; ///< extra lines for both materials
   std::string walls, species = R"([[species]]
 name = "bead"
 material = "glass"
 size = { distribution = "single", diameter = "2 mm" }
 )";
+  std::string firstDiameter; ///< for the placeholder grain, where the species has a size spread
   double stepsPerContact = 50;
   double maximumOverlap = 0.5;
 
@@ -57,7 +59,7 @@ rolling = {}
 {}
 [[fill]]
 kind = "list"
-grains = [{{ position = ["0 m", "0 m", "0 m"], species = "bead" }}]
+grains = [{{ position = ["0 m", "0 m", "0 m"], species = "bead"{} }}]
 [[stage]]
 name = "run"
 until = {{ duration = "1 s" }}
@@ -66,8 +68,8 @@ steps_per_contact = {}
 maximum_overlap = {}
 )",
                        gravity, lower, upper, periodic, elasticity, elasticity, normal, tangential, rolling,
-                       wallNormal.empty() ? normal : wallNormal, tangential, rolling, species, walls, stepsPerContact,
-                       maximumOverlap);
+                       wallNormal.empty() ? normal : wallNormal, tangential, rolling, species, walls,
+                       firstDiameter, stepsPerContact, maximumOverlap);
   }
   Scene scene() const { return parseScene(text(), "test"); }
 };

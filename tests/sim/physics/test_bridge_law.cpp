@@ -13,7 +13,7 @@ namespace {
 class ConstantBridge final : public Law {
 public:
   static constexpr double force = 1e-4, rupture = 0.2e-3, draw = 1e-12; // N, m, m^3 from each grain
-  int historySize() const override { return 1; } // liquid in the bridge; 0: none
+  int historySize() const override { return 1; }                        // liquid in the bridge; 0: none
   double range() const override { return rupture; }
   std::vector<std::string> grainQuantities() const override { return {"liquid"}; }
   void apply(ContactBlock& b, int first) const override {
@@ -48,18 +48,24 @@ TEST_CASE("a gap law keeps its history from birth to death and conserves what it
   solver.add({grain(0, {1e-3 + gap, 0, 0}, {-v, 0, 0}), grain(1, {-1e-3 - gap, 0, 0}, {v, 0, 0})});
   solver.setQuantity("liquid", {5e-12, 3e-12});
 
-  const auto separation = [&] { return solver.present()[0].position.x() - solver.present()[1].position.x() - 2e-3; };
+  const auto separation = [&] {
+    return solver.present()[0].position.x() - solver.present()[1].position.x() - 2e-3;
+  };
   // On the way in there is a gap within range and no bridge: no force.
   solver.advance(1);
   CHECK(solver.present()[0].velocity.x() == -v);
-  while (separation() > 0) solver.advance(1);
+  while (separation() > 0)
+    solver.advance(1);
   solver.advance(5);
   CHECK(solver.quantity("liquid")[0] == Approx(4e-12));
   CHECK(solver.quantity("liquid")[1] == Approx(2e-12));
-  while (separation() < 0) solver.advance(1);
-  while (separation() < 0.5 * ConstantBridge::rupture) solver.advance(1);
+  while (separation() < 0)
+    solver.advance(1);
+  while (separation() < 0.5 * ConstantBridge::rupture)
+    solver.advance(1);
   CHECK(solver.quantity("liquid")[0] == Approx(4e-12)); // the bridge spans the gap
-  while (separation() < 1.5 * ConstantBridge::rupture) solver.advance(1);
+  while (separation() < 1.5 * ConstantBridge::rupture)
+    solver.advance(1);
   CHECK(solver.quantity("liquid")[0] == Approx(5e-12)); // it broke and gave back
   CHECK(solver.quantity("liquid")[1] == Approx(3e-12));
   // Work to pull it apart: force times rupture distance, taken from the kinetic energy of both.

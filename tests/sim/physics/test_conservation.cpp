@@ -11,7 +11,8 @@ using namespace sandglass::testing;
 TEST_CASE("an undamped box of 50 spheres keeps its energy over 1e5 steps") {
   SceneText t;
   t.normal = R"({ law = "linear", stiffness = "1000 N/m", restitution = 1.0 })";
-  t.walls = "[[wall]]\nname = \"box\"\nkind = \"box\"\nmaterial = \"wall\"\nlower = [\"-6 mm\", \"-6 mm\", \"-6 mm\"]\nupper = [\"6 mm\", "
+  t.walls = "[[wall]]\nname = \"box\"\nkind = \"box\"\nmaterial = \"wall\"\nlower = [\"-6 mm\", \"-6 mm\", "
+            "\"-6 mm\"]\nupper = [\"6 mm\", "
             "\"6 mm\", \"6 mm\"]\n";
   t.stepsPerContact = 50;
   DemSolver solver(t.scene(), {1});
@@ -37,14 +38,17 @@ TEST_CASE("momentum and angular momentum of a free cluster are kept to round-off
     t.normal = R"({ law = "linear", stiffness = "1000 N/m", restitution = 0.6 })";
     t.tangential = R"({ law = "spring", friction = 0.4, damping_ratio = 0.3 })";
     t.rolling = rolling;
-    t.species = "[[species]]\nname = \"bead\"\nmaterial = \"glass\"\nsize = { distribution = \"uniform\", minimum = \"1.2 mm\", maximum = \"2 mm\" }\n";
+    t.firstDiameter = ", diameter = \"2 mm\"";
+    t.species = "[[species]]\nname = \"bead\"\nmaterial = \"glass\"\nsize = { distribution = \"uniform\", "
+                "smallest = \"1.2 mm\", largest = \"2 mm\" }\n";
     DemSolver solver(t.scene(), {2});
     std::vector<GrainSeed> seeds;
     for (int k = 0; k < 30; ++k) {
       RandomStream random(11, RandomPurpose::test, k);
       // A shrinking, spinning ball of grains of unequal size.
       const Vec3 place = 2.1e-3 * Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1.5);
-      seeds.push_back(grain(k, place, -40.0 * place + 0.05 * random.direction(), 50.0 * random.direction(), 0.6e-3 + 0.4e-3 * random.uniform()));
+      seeds.push_back(grain(k, place, -40.0 * place + 0.05 * random.direction(), 50.0 * random.direction(),
+                            0.6e-3 + 0.4e-3 * random.uniform()));
     }
     solver.add(seeds);
     const auto sums = [&](Vec3& p, Vec3& l, double& scaleP, double& scaleL) {

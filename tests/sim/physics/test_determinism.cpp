@@ -13,7 +13,8 @@ using namespace sandglass::testing;
 namespace {
 
 /// A thin periodic slab (2.5 diameters deep) filled over a floor: pairs meet through several images.
-std::unique_ptr<DemSolver> slab(int threads, const char* normal = R"({ law = "linear", stiffness = "500 N/m", restitution = 0.8 })") {
+std::unique_ptr<DemSolver>
+slab(int threads, const char* normal = R"({ law = "linear", stiffness = "500 N/m", restitution = 0.8 })") {
   SceneText t;
   t.gravity = R"(["0", "-9.81 m/s^2", "0"])";
   t.lower = R"(["-15 mm", "-5 mm", "0 mm"])";
@@ -24,7 +25,8 @@ std::unique_ptr<DemSolver> slab(int threads, const char* normal = R"({ law = "li
   t.tangential = R"({ law = "spring", friction = 0.5, damping_ratio = 0.2 })";
   t.rolling = R"({ law = "elastic_plastic", coefficient = 0.1 })";
   t.stepsPerContact = 25;
-  t.walls = "[[wall]]\nname = \"floor\"\nkind = \"plane\"\nmaterial = \"wall\"\npoint = [\"0 m\", \"0 m\", \"0 m\"]\nnormal = [0, 1, 0]\n";
+  t.walls = "[[wall]]\nname = \"floor\"\nkind = \"plane\"\nmaterial = \"wall\"\npoint = [\"0 m\", \"0 m\", "
+            "\"0 m\"]\nnormal = [0, 1, 0]\n";
   auto solver = std::make_unique<DemSolver>(t.scene(), SolverOptions{threads});
   std::vector<GrainSeed> seeds;
   for (int k = 0; k < 1800; ++k) {
@@ -38,7 +40,9 @@ std::unique_ptr<DemSolver> slab(int threads, const char* normal = R"({ law = "li
 
 std::string bits(const DemSolver& solver) {
   std::string all;
-  const auto put = [&](const Vec3& v) { all.append(reinterpret_cast<const char*>(v.data()), sizeof(double) * 3); };
+  const auto put = [&](const Vec3& v) {
+    all.append(reinterpret_cast<const char*>(v.data()), sizeof(double) * 3);
+  };
   for (const GrainSeed& s : solver.present()) {
     put(s.position);
     put(s.velocity);
@@ -50,7 +54,8 @@ std::string bits(const DemSolver& solver) {
 } // namespace
 
 TEST_CASE("1, 2, 3 and 7 threads give the same bits") {
-  for (const char* normal : {R"({ law = "linear", stiffness = "500 N/m", restitution = 0.8 })", R"({ law = "hertz", restitution = 0.8 })"}) {
+  for (const char* normal : {R"({ law = "linear", stiffness = "500 N/m", restitution = 0.8 })",
+                             R"({ law = "hertz", restitution = 0.8 })"}) {
     auto reference = slab(1, normal);
     reference->advance(3000);
     REQUIRE(reference->rebuilds() > 10);

@@ -1,5 +1,5 @@
-// A sphere on a plane: sliding into rolling, rolling and sliding down a slope, resting on it. Exact answers of
-// rigid-body mechanics; the contact's finite stiffness enters below the tolerances.
+// A sphere on a plane: sliding into rolling, rolling and sliding down a slope, resting on it. Exact answers
+// of rigid-body mechanics; the contact's finite stiffness enters below the tolerances.
 
 #include "tests/sim/physics/bench_scenes.h"
 
@@ -21,16 +21,21 @@ DemSolver onSlope(double slope, double friction, double rollingCoefficient, cons
   t.gravity = fmt::format(R"(["{} m/s^2", "0", "{} m/s^2"])", g * std::sin(slope), -g * std::cos(slope));
   t.lower = R"(["-10 m", "-1 m", "-1 m"])";
   t.upper = R"(["10 m", "1 m", "1 m"])";
-  t.tangential = fmt::format(R"({{ law = "spring", friction = {}, stiffness_ratio = 0.2857, damping_ratio = 0.5 }})", friction);
-  if (rollingCoefficient > 0.0) t.rolling = fmt::format(R"({{ law = "elastic_plastic", coefficient = {} }})", rollingCoefficient);
-  t.walls = "[[wall]]\nname = \"slope\"\nkind = \"plane\"\nmaterial = \"wall\"\npoint = [\"0 m\", \"0 m\", \"0 m\"]\nnormal = [0, 0, 1]\n";
+  t.tangential = fmt::format(
+      R"({{ law = "spring", friction = {}, stiffness_ratio = 0.2857, damping_ratio = 0.5 }})", friction);
+  if (rollingCoefficient > 0.0)
+    t.rolling = fmt::format(R"({{ law = "elastic_plastic", coefficient = {} }})", rollingCoefficient);
+  t.walls = "[[wall]]\nname = \"slope\"\nkind = \"plane\"\nmaterial = \"wall\"\npoint = [\"0 m\", \"0 m\", "
+            "\"0 m\"]\nnormal = [0, 0, 1]\n";
   DemSolver solver(t.scene(), {1});
   const double mass = 4.0 / 3.0 * std::numbers::pi * 1e-9 * 2500.0;
   solver.add({grain(0, {0, 0, radius - mass * g * std::cos(slope) / 1000.0}, velocity)});
   return solver;
 }
 
-void runFor(DemSolver& solver, double seconds) { solver.advance(static_cast<std::int64_t>(std::round(seconds / solver.stepSize()))); }
+void runFor(DemSolver& solver, double seconds) {
+  solver.advance(static_cast<std::int64_t>(std::round(seconds / solver.stepSize())));
+}
 
 } // namespace
 
@@ -53,7 +58,8 @@ TEST_CASE("a sphere rolls down a slope with 5/7 g sin while friction can hold it
     runFor(solver, 0.1);
     const double a = (solver.present()[0].velocity.x() - v0) / (solver.time() - t0);
     const bool rolls = std::tan(slope) <= 3.5 * mu;
-    const double expected = rolls ? 5.0 / 7.0 * g * std::sin(slope) : g * (std::sin(slope) - mu * std::cos(slope));
+    const double expected =
+        rolls ? 5.0 / 7.0 * g * std::sin(slope) : g * (std::sin(slope) - mu * std::cos(slope));
     INFO("slope " << slope << (rolls ? " rolls" : " slides"));
     CHECK(a == Approx(expected).epsilon(5e-3));
   }

@@ -21,7 +21,8 @@ GrainStore randomGrains(int n, const Domain& domain, double smallest, double lar
   for (int i = 0; i < n; ++i) {
     RandomStream random(5, RandomPurpose::test, i);
     Vec3 x;
-    for (int k = 0; k < 3; ++k) x[k] = random.uniform(domain.lower[k], domain.upper[k]);
+    for (int k = 0; k < 3; ++k)
+      x[k] = random.uniform(domain.lower[k], domain.upper[k]);
     store.place[i] = {x.x(), x.y(), x.z(), random.uniform(smallest, largest)};
     store.motion[i].w = 1.0;
     store.id[i] = (i * 7919) % n; // ids in another order than storage
@@ -43,7 +44,8 @@ std::set<Key> bruteForce(const GrainStore& g, const Domain& d, double margin) {
             if (a == b && std::tuple(x, y, z) <= std::tuple(0, 0, 0)) continue;
             const Vec3 s(x * L[0], y * L[1], z * L[2]);
             const double r = g.place[a].w + g.place[b].w + margin;
-            if ((g.place[a].vec() - (g.place[b].vec() + s)).squaredNorm() < r * r) keys.insert({g.id[a], g.id[b], x, y, z});
+            if ((g.place[a].vec() - (g.place[b].vec() + s)).squaredNorm() < r * r)
+              keys.insert({g.id[a], g.id[b], x, y, z});
           }
     }
   return keys;
@@ -72,10 +74,13 @@ TEST_CASE("the list holds every pair once, in an open box") {
 TEST_CASE("the list holds every pair once, in periodic boxes wide and thin") {
   compare({Vec3(0, 0, 0), Vec3(1, 2, 1.5), {true, true, true}}, 400, 0.03, 0.08, 0.02);
   compare({Vec3(-1, 0, 0), Vec3(1, 0.25, 1), {true, true, false}}, 300, 0.04, 0.05, 0.03); // 2.5 diameters
-  compare({Vec3(0, 0, 0), Vec3(0.3, 0.09, 0.3), {true, true, true}}, 40, 0.02, 0.04, 0.05); // thinner than a cut-off
+  compare({Vec3(0, 0, 0), Vec3(0.3, 0.09, 0.3), {true, true, true}}, 40, 0.02, 0.04,
+          0.05); // thinner than a cut-off
 }
 
-TEST_CASE("sizes 1:20 in one list") { compare({Vec3(0, 0, 0), Vec3(1, 1, 1), {false, true, false}}, 300, 0.005, 0.1, 0.01); }
+TEST_CASE("sizes 1:20 in one list") {
+  compare({Vec3(0, 0, 0), Vec3(1, 1, 1), {false, true, false}}, 300, 0.005, 0.1, 0.01);
+}
 
 TEST_CASE("grains far apart do not blow up the grid") {
   Domain domain{Vec3(-1e6, -1e6, -1e6), Vec3(1e6, 1e6, 1e6), {false, false, false}};

@@ -17,7 +17,8 @@ std::shared_ptr<const WallShape> make(const std::string& kind, std::map<std::str
       Parameters p;
       for (const ParameterSpec& s : k.parameters)
         if (s.fallback) p.set(s.name, *s.fallback);
-      for (auto& [name, value] : values) p.set(name, value);
+      for (auto& [name, value] : values)
+        p.set(name, value);
       return k.make(p);
     }
   throw std::runtime_error("no such kind");
@@ -48,16 +49,19 @@ TEST_CASE("in a corner of a box three faces touch and no edge does") {
 }
 
 TEST_CASE("at the rim of an open box the edge is one contact") {
-  const auto box = make("box", {{"lower", Vec3(0, 0, 0)}, {"upper", Vec3(1, 1, 1)}, {"open", std::vector<std::string>{"z+"}}});
+  const auto box = make(
+      "box", {{"lower", Vec3(0, 0, 0)}, {"upper", Vec3(1, 1, 1)}, {"open", std::vector<std::string>{"z+"}}});
   const auto t = touches(*box, {0.05, 0.5, 1.05}, 0.1);
   REQUIRE(t.count == 1);
   CHECK(t.at[0].distance == Approx(std::hypot(0.05, 0.05)));
-  CHECK(touches(*box, {0.03, 0.03, 1.03}, 0.1).count == 2); // two rims near, their common corner not counted again
+  CHECK(touches(*box, {0.03, 0.03, 1.03}, 0.1).count ==
+        2); // two rims near, their common corner not counted again
 }
 
 TEST_CASE("the outlet edge of a flat slot hopper counts once, faces cover it elsewhere") {
   const double half = 0.5 * std::numbers::pi;
-  const auto wedge = make("wedge", {{"outlet", 0.025}, {"width", 0.125}, {"half_angle", half}, {"height", 0.3}, {"lip", 0.0045}});
+  const auto wedge = make(
+      "wedge", {{"outlet", 0.025}, {"width", 0.125}, {"half_angle", half}, {"height", 0.3}, {"lip", 0.0045}});
   // Above the floor: the floor alone.
   CHECK(touches(*wedge, {0.03, 0.001, 0}, 0.00112).count == 1);
   // Over the edge from inside the opening: the edge alone, once.
@@ -77,18 +81,23 @@ TEST_CASE("the outlet edge of a flat slot hopper counts once, faces cover it els
 
 TEST_CASE("revolved walls: distance and normal agree with a dense sampling of the surface") {
   const double angle = std::numbers::pi / 6;
-  const auto hopper = make("cone_hopper", {{"base", Vec3(0, 0, 0)}, {"outlet", 0.02}, {"width", 0.1}, {"half_angle", angle}, {"height", 0.15}});
+  const auto hopper = make(
+      "cone_hopper",
+      {{"base", Vec3(0, 0, 0)}, {"outlet", 0.02}, {"width", 0.1}, {"half_angle", angle}, {"height", 0.15}});
   const TriangleMesh mesh = hopper->mesh({Vec3(-1, -1, -1), Vec3(1, 1, 1)});
   for (const Vec3& x : {Vec3(0.02, 0.01, 0.06), Vec3(-0.01, 0.04, 0.12), Vec3(0.005, -0.002, 0.01)}) {
     const auto t = touches(*hopper, x, 0.2);
     double nearest = 1e9;
-    for (int k = 0; k < t.count; ++k) nearest = std::min(nearest, t.at[k].distance);
+    for (int k = 0; k < t.count; ++k)
+      nearest = std::min(nearest, t.at[k].distance);
     double sampled = 1e9;
     for (const auto& tri : mesh.triangles)
       for (int a = 0; a <= 40; ++a)
         for (int b = 0; a + b <= 40; ++b)
-          sampled = std::min(sampled, (mesh.points[tri[0]] + a / 40.0 * (mesh.points[tri[1]] - mesh.points[tri[0]]) +
-                                       b / 40.0 * (mesh.points[tri[2]] - mesh.points[tri[0]]) - x).norm());
+          sampled = std::min(sampled,
+                             (mesh.points[tri[0]] + a / 40.0 * (mesh.points[tri[1]] - mesh.points[tri[0]]) +
+                              b / 40.0 * (mesh.points[tri[2]] - mesh.points[tri[0]]) - x)
+                                 .norm());
     CHECK(nearest == Approx(sampled).margin(3e-4)); // facets and samples are that coarse
     CHECK(hopper->signedDistance(x) == Approx(nearest));
   }
@@ -96,7 +105,8 @@ TEST_CASE("revolved walls: distance and normal agree with a dense sampling of th
 }
 
 TEST_CASE("a sphere in a cone's tip is held from both sides") {
-  const auto cone = make("cone", {{"apex", Vec3(0, 0, 0)}, {"half_angle", std::numbers::pi / 4}, {"height", 1.0}});
+  const auto cone =
+      make("cone", {{"apex", Vec3(0, 0, 0)}, {"half_angle", std::numbers::pi / 4}, {"height", 1.0}});
   const auto t = touches(*cone, {0.01, 0, 0.3}, 0.25);
   REQUIRE(t.count == 2);
   Vec3 sum = t.at[0].normal + t.at[1].normal;

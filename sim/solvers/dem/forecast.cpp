@@ -1,0 +1,87 @@
+// What a run will cost, found by trying: a periodic block of the scene's own grains and laws, run for a
+// moment.
+
+#include "sim/base/random.h"
+#include "sim/grains/seeding.h"
+#include "sim/solvers/dem/dem_solver.h"
+#include "sim/solvers/dem/step_rule.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace sandglass {
+
+namespace {
+
+struct Trial {
+  double secondsPerGrainStep = 0, bytesPerGrain = 0;
+};
+
+/// A dense block (simple cubic, 1 % overlap at the mean diameter, slightly stirred) without walls or gravity.
+Trial tryOut(const Scene& scene) {
+  constexpr int side = 14, steps = 60;
+  Scene block = scene;
+  const Species& species = scene.species.front();
+  const double d = sizeRange(scene, species).meanDiameter;
+  const double pitch = 0.99 * d;
+  block.walls.clear();
+  block.outlets.clear();
+  block.gravity = Vec3::Zero();
+  block.output = {};
+  block.accuracy.maximumOverlap = 1e9;
+  block.domain = {Vec3::Zero(), Vec3::Constant(side * pitch), {true, true, true}};
+  SolverOptions one;
+  one.threads = 1;
+  DemSolver solver(block, one);
+  std::vector<GrainSeed> seeds;
+  for (int k = 0; k < side * side * side; ++k) {
+    RandomStream random(scene.seed, RandomPurpose::grainVelocity, k);
+    GrainSeed s;
+    s.id = k;
+    s.radius = 0.5 * d;
+    s.position = pitch * (Vec3(k % side, k / side % side, k / side / side) + Vec3::Constant(0.5));
+    s.velocity = 1e-3 * d / solver.stepSize() * random.direction();
+    seeds.push_back(s);
+  }
+  solver.add(seeds);
+  solver.advance(10);
+  const auto start = std::chrono::steady_clock::now();
+  solver.advance(steps);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  return {spent.count() / (static_cast<double>(seeds.size()) * steps), solver.bytesPerGrain()};
+}
+
+} // namespace
+
+Forecast forecast(const Scene& scene) {
+  const LawStack laws(scene);
+  Forecast f;
+  f.step = chooseStep(scene, laws);
+  f.grains = expectedGrains(scene);
+  const Trial trial = tryOut(scene);
+  f.secondsPerGrainStep = trial.secondsPerGrainStep;
+  f.bytesPerGrain = trial.bytesPerGrain;
+
+  for (const auto& entry : laws.entries()) {
+    const LawKind* kind = findLaw(entry.role, entry.name);
+    f.modelled.push_back(fmt::format("{}: {}; {} bytes of history a pair", entry.name,
+                                     kind ? kind->description : "a law of the program",
+                                     8 * entry.law->historySize()));
+  }
+  const bool periodic = scene.domain.periodic[0] || scene.domain.periodic[1] || scene.domain.periodic[2];
+  const auto tell = [&](bool used, const std::string& feature, const std::string& cost) {
+    (used ? f.modelled : f.notModelled).push_back(used ? feature + "; " + cost : feature);
+  };
+  tell(laws.turning(), "spin of grains", "64 bytes a grain, 24 bytes a pair");
+  tell(laws.readsSpin(), "rolling resistance", "24 bytes a pair");
+  tell(laws.range() > 0.0, "forces across a gap", fmt::format("lists reach {:.3g} m further", laws.range()));
+  tell(periodic, "periodic directions", "12 bytes a grain, 9 bytes a pair");
+  tell(!scene.walls.empty(), "walls", "paid by the grains that are near one");
+  tell(!scene.outlets.empty(), "outlets", "one look at each grain every 50 steps");
+  tell(scene.gravity.norm() > 0.0, "gravity", "no memory");
+  return f;
+}
+
+} // namespace sandglass
