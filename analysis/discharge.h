@@ -34,12 +34,15 @@ struct DischargeFit {
 };
 
 /// Range, when not fixed: the mass is cut into up to 40 equal parts; the plateau is the median of their rates
-/// between 20 and 60 % discharged; from the middle outwards parts belong to the range while the mean of three
-/// neighbours is within 10 % of the plateau (or three robust standard deviations, if larger), and one part is
-/// given up at either end. Slope: least squares. Error: slopes of 5 to 20 blocks of equal duration, each at
-/// least ten correlation times of the rate, Student's t. For a rate that fluctuates this is the error of the
-/// long-time mean rate; for a steady rate with noise on the mass alone it is larger than needed. Throws
-/// InputError when too little was discharged or too few samples lie in the range.
+/// between 20 and 60 % discharged; a part is even while the mean of three neighbours is within 10 % of the
+/// plateau (or three robust standard deviations, if larger). From the middle outwards the range grows until
+/// three parts in a row are uneven, and gives up one part at either end.
+///
+/// Slope: least squares. Error: slopes of 5 to 20 blocks of equal duration, each at least ten correlation
+/// times of the rate, Student's t. For a rate that fluctuates this is the error of the long-time mean rate;
+/// for a steady rate with noise on the mass alone it is larger than needed.
+///
+/// Throws InputError when too little was discharged or too few samples lie in the range.
 DischargeFit fitDischarge(const DischargeData& data, const DischargeOptions& options = {});
 
 /// Mass against time, the fitted line, the range as marks; numbers rate, rate_error_95, rate_per_depth, ...

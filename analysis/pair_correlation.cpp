@@ -53,7 +53,7 @@ bool PairCorrelation::add(const Frame& frame) {
   RegionOptions regionOptions = options_.region;
   regionOptions.diameter = options_.diameter;
   if (regionOptions.clearance <= 0) regionOptions.clearance = radius;
-  if (regionOptions.up && regionOptions.surfaceMargin <= 0)
+  if (regionOptions.up && regionOptions.freeSurface && regionOptions.surfaceMargin <= 0)
     regionOptions.surfaceMargin = 2 * options_.diameter;
   const Region region(frame, regionOptions);
   if (regionText_.empty()) regionText_ = region.description();

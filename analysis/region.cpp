@@ -18,8 +18,8 @@ constexpr std::uint64_t pointsPerShift = 65536;
 
 Region::Region(const Frame& frame, const RegionOptions& options) : domain_(frame.domain), options_(options) {
   for (const auto& wall : frame.walls)
-    if (wall.active || options.removedWallsBound) walls_.push_back(wall.shape);
-  if (options.up) {
+    if (wall.active) walls_.push_back(wall.shape);
+  if (options.up && options.freeSurface) {
     if (!(options.diameter > 0))
       throw InputError("the free surface needs the mean grain diameter, which is 0: give a diameter");
     const double width = options.columnWidth > 0 ? options.columnWidth : 1.5 * options.diameter;
@@ -39,6 +39,25 @@ Region::Region(const Frame& frame, const RegionOptions& options) : domain_(frame
         upper[k] = std::min(upper[k], top);
       else
         lower[k] = std::max(lower[k], -top);
+    }
+  }
+  if (options.up && options.closeGates) {
+    const Vec3 up = options.up->normalized();
+    for (const auto& wall : frame.walls) {
+      const bool gate =
+          std::find(options.gates.begin(), options.gates.end(), wall.name) != options.gates.end();
+      if (wall.active && !gate) continue;
+      const Eigen::AlignedBox3d bounds = wall.shape->bounds();
+      for (int k = 0; k < 3; ++k) {
+        if (std::abs(up[k]) != 1) continue;
+        // From the gate's highest point on, and as far from it as from other walls.
+        const double floor = (up[k] > 0 ? bounds.max()[k] : -bounds.min()[k]) + options.clearance;
+        if (!std::isfinite(floor)) continue;
+        if (up[k] > 0)
+          lower[k] = std::max(lower[k], floor);
+        else
+          upper[k] = std::min(upper[k], -floor);
+      }
     }
   }
   upper = upper.cwiseMax(lower);

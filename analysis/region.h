@@ -18,12 +18,14 @@ struct RegionOptions {
   double clearance = 0; ///< least distance from walls [m]: the grain radius for centres, 0 for grains
   Vec3 lower = Vec3::Constant(-std::numeric_limits<double>::infinity()); ///< the user's limits [m]
   Vec3 upper = Vec3::Constant(std::numeric_limits<double>::infinity());
-  bool removedWallsBound =
-      true;                 ///< an opened gate still closes the region, so that what fell out is not in it
-  std::optional<Vec3> up;   ///< minus gravity; the free surface is looked for where it is given
-  double surfaceMargin = 0; ///< [m] below the free surface
-  double columnWidth = 0;   ///< [m] of the surface's height field; 0: 1.5 `diameter`
-  double diameter = 0;      ///< mean grain diameter [m]; needed with `up`
+  bool closeGates = true; ///< an opened gate still closes the region: nothing below it counts, so that what
+                          ///< fell out is not in it; needs `up`
+  std::vector<std::string> gates; ///< walls that a stage will remove; those already removed are known anyway
+  std::optional<Vec3> up;         ///< minus gravity
+  bool freeSurface = true;        ///< whether the free surface bounds the region; needs `up` and `diameter`
+  double surfaceMargin = 0;       ///< [m] below the free surface
+  double columnWidth = 0;         ///< [m] of the surface's height field; 0: 1.5 `diameter`
+  double diameter = 0;            ///< mean grain diameter [m]; needed with `up`
 };
 
 /// A volume with its standard error [m^3].

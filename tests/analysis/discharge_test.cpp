@@ -63,8 +63,7 @@ TEST_CASE("an even discharge without noise", "[discharge]") {
 }
 
 TEST_CASE("the 95 % interval holds the planted rate in 95 % of cases", "[discharge]") {
-  // 500 seeds: binomial standard deviation 1 %; three of them either side, 95 % +- 3 %. Correlated rates
-  // leave five to twenty blocks, whose neighbours are not quite independent: two per cent more below.
+  // 500 seeds: the binomial standard deviation is 1 %; three of them either side of 95 %.
   SECTION("rate with white noise") {
     const auto [share, bias] = coverage(0.3, 0, 0);
     INFO("coverage " << share << " bias " << bias);
@@ -75,7 +74,7 @@ TEST_CASE("the 95 % interval holds the planted rate in 95 % of cases", "[dischar
   SECTION("rate with memory") {
     const auto [share, bias] = coverage(0.1, 0.03, 0);
     INFO("coverage " << share << " bias " << bias);
-    CHECK(share > 0.90);
+    CHECK(share > 0.92);
     CHECK(share < 0.98);
     CHECK(std::abs(bias) < 0.002);
   }
