@@ -31,6 +31,10 @@ std::filesystem::path temporaryName(const std::filesystem::path& file) {
   return std::filesystem::path(file).concat(".part");
 }
 
+void syncFile(const std::filesystem::path& file) {
+  syncPath(file, O_RDONLY);
+}
+
 void publish(const std::filesystem::path& file) {
   const auto temporary = temporaryName(file);
   syncPath(temporary, O_RDONLY);

@@ -10,6 +10,9 @@ namespace sandglass {
 /// "<file>.part", beside the file so that a rename cannot cross file systems.
 std::filesystem::path temporaryName(const std::filesystem::path& file);
 
+/// What was written to `file` is on the disk afterwards. Throws RunError.
+void syncFile(const std::filesystem::path& file);
+
 /// Syncs temporaryName(file) to disk, renames it to `file`, syncs the folder. Throws RunError.
 void publish(const std::filesystem::path& file);
 

@@ -44,8 +44,12 @@ public:
       opened_ = std::chrono::steady_clock::now();
     }
     segment_->append(frame);
-    if (segment_->bytes() >= segmentBytes || std::chrono::steady_clock::now() - opened_ >= segmentAge)
-      closeSegment();
+    if (segment_->bytes() >= segmentBytes) closeSegment();
+    closeIfOld();
+  }
+
+  void closeIfOld() override {
+    if (segment_ && std::chrono::steady_clock::now() - opened_ >= segmentAge) closeSegment();
   }
 
   void closeSegment() override {

@@ -36,6 +36,7 @@ public:
   virtual ~FrameWriter() = default;
   virtual void write(const Frame& frame) = 0;
   virtual void closeSegment() = 0; ///< everything written so far is safe afterwards
+  virtual void closeIfOld() = 0;   ///< closes a segment that has been open for 30 s; for quiet times
 };
 std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& runFolder, const Scene& scene);
 

@@ -17,14 +17,19 @@
 
 namespace sandglass {
 
+/// How a Run gets its solver; makeSolver() unless told otherwise.
+using SolverFactory = std::function<std::unique_ptr<Solver>(const Scene&, const SolverOptions&)>;
+
 struct RunOptions {
-  std::filesystem::path folder;   ///< empty: nothing is written
-  int threads = 0;                ///< 0: all cores
-  bool resume = false;            ///< go on from the newest checkpoint in `folder`
-  double liveInterval = 0;        ///< [s wall], offer a Frame to onLiveFrame at most this often; 0: never
+  std::filesystem::path folder; ///< empty: nothing is written
+  int threads = 0;              ///< 0: all cores
+  bool resume = false;          ///< go on from the newest checkpoint in `folder`; from the start if none
+  bool overwrite = false;       ///< delete the run that `folder` holds; else a run there is refused
+  double liveInterval = 0;      ///< [s wall], offer a Frame to onLiveFrame at most this often; 0: never
+  SolverFactory solverFactory;  ///< empty: makeSolver
 };
 
-/// One row of series.csv: time and the values of one probe.
+/// What one probe saw at one time. series.csv has a column `<probe>.<value>` for each.
 struct ProbeSample {
   std::string probe;
   double time = 0;
@@ -33,15 +38,26 @@ struct ProbeSample {
 
 struct Progress {
   std::string stage;
-  double time = 0;                ///< [s] simulated
+  double time = 0; ///< [s] simulated
   std::int64_t step = 0;
   std::size_t grains = 0;
-  double fraction = 0;            ///< of the whole run, 0..1, an estimate
-  double secondsLeft = 0;         ///< wall time, an estimate; negative when unknown
+  double fraction = 0;    ///< of the whole run, 0..1, an estimate
+  double secondsLeft = 0; ///< wall time, an estimate; negative when unknown
   double grainStepsPerSecond = 0;
 };
 
 enum class RunOutcome { finished, stopped };
+
+/// What a run has done, for the last line of the command line.
+struct RunSummary {
+  std::size_t stagesDone = 0, stages = 0, frames = 0;
+  double time = 0;        ///< [s] simulated
+  std::int64_t steps = 0; ///< since the start of the run
+  std::size_t grains = 0; ///< present at the end
+  Flow flow;
+  double wallSeconds = 0; ///< of this execute(), pauses left out
+  double grainSteps = 0;  ///< of this execute()
+};
 
 class Run {
 public:
@@ -49,22 +65,25 @@ public:
   ~Run();
 
   // Called from the thread of execute(); set before it starts.
-  std::function<void(FramePtr)> onLiveFrame;   ///< newest state, at most every liveInterval
-  std::function<void(FramePtr)> onSavedFrame;  ///< each frame of the output interval
+  std::function<void(FramePtr)> onLiveFrame;  ///< newest state, at most every liveInterval
+  std::function<void(FramePtr)> onSavedFrame; ///< each frame of the output interval
   std::function<void(const ProbeSample&)> onSample;
   std::function<void(const Progress&)> onProgress;
 
-  /// Runs to the end or until stop(). Throws RunError (state kept in the last good checkpoint).
+  /// Runs to the end or until stop(). Throws RunError (state kept in the last good checkpoint), InputError
+  /// when the folder holds another run or grains cannot be placed. To be called once.
   RunOutcome execute();
 
   // Safe from any thread and from a signal handler (atomics only).
-  void stop() { stop_ = true; }               ///< finish the step, write a checkpoint, return
+  void stop() { stop_ = true; } ///< finish the step, write a checkpoint, return
   void pause(bool on) { paused_ = on; }
   void stepOnce(int steps) { single_ += steps; } ///< while paused: advance this many steps
 
   const Scene& scene() const;
+  RunSummary summary() const; ///< from the thread of execute(), at any time
 
 private:
+  RunOutcome loop();
   struct Impl;
   std::unique_ptr<Impl> impl_;
   std::atomic<bool> stop_{false}, paused_{false};

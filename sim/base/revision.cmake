@@ -1,0 +1,15 @@
+# Run at build time: writes OUTPUT with the commit of the sources, and leaves it alone when nothing changed.
+find_program(GIT git)
+set(revision "")
+if(GIT)
+  execute_process(COMMAND ${GIT} describe --always --dirty=-modified WORKING_DIRECTORY ${SOURCE}
+    OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+endif()
+set(text "#define SANDGLASS_VERSION std::string(\"${VERSION}\")\n#define SANDGLASS_REVISION \"${revision}\"\n")
+set(before "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} before)
+endif()
+if(NOT before STREQUAL text)
+  file(WRITE ${OUTPUT} "${text}")
+endif()

@@ -1,0 +1,73 @@
+#include "sim/run/energy_watchdog.h"
+
+#include "sim/base/error.h"
+#include "sim/run/bytes.h"
+#include "sim/run/probe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sandglass {
+
+EnergyWatchdog::EnergyWatchdog(const Scene& scene) : scene_(scene), on_(true) {
+  const Vec3 extent = scene.domain.upper - scene.domain.lower;
+  for (int k = 0; k < 3; ++k) {
+    if (scene.domain.periodic[k] && scene.gravity[k] != 0) on_ = false;
+    lowestPotential_ -=
+        std::max(scene.gravity[k] * scene.domain.upper[k], scene.gravity[k] * scene.domain.lower[k]);
+  }
+  for (const auto& contact : scene.contacts)
+    if (!contact.gap.empty()) on_ = false;
+  negligible_ = 1e-6 * scene.gravity.norm() * extent.norm();
+}
+
+void EnergyWatchdog::entered(const std::vector<GrainSeed>& grains, double measured) {
+  if (!on_) return;
+  double energy = 0, mass = 0;
+  for (const auto& grain : grains) {
+    mass += grainMass(scene_, grain);
+    const double inertia = 0.4 * grain.radius * grain.radius; // per mass, of a solid sphere
+    energy += grainMass(scene_, grain) *
+              (0.5 * grain.velocity.squaredNorm() + 0.5 * inertia * grain.spin.squaredNorm() -
+               scene_.gravity.dot(grain.position) - lowestPotential_);
+  }
+  energy = std::max(energy, measured - mass * lowestPotential_);
+  ever_ += energy;
+  for (double& value : recent_)
+    value += energy;
+}
+
+void EnergyWatchdog::check(const Solver& solver, const Energies& energies) {
+  if (!on_) return;
+  for (const auto& wall : solver.walls())
+    if (wall.velocity != Vec3::Zero()) on_ = false;
+  if (!on_) return;
+  const Flow& flow = solver.flow();
+  const double mass = flow.massEntered - flow.massDischarged;
+  const double now = energies.total() - mass * lowestPotential_;
+  const double before =
+      recent_.empty() ? ever_ : std::min(ever_, *std::max_element(recent_.begin(), recent_.end()));
+  if (now > before + allowedGain * std::abs(before) + mass * negligible_)
+    throw RunError(fmt::format("at {:.6g} s the mechanical energy grew from {:.4g} J to {:.4g} J within {} "
+                               "grains and without a source "
+                               "(at most {:.0f} % may come from round-off and hidden springs); reduce the "
+                               "time step ({:.3g} s now) or "
+                               "check the contact parameters",
+                               solver.time(), before, now, solver.grains(), 100 * allowedGain,
+                               solver.stepSize()));
+  recent_.push_back(now);
+  if (recent_.size() > window) recent_.erase(recent_.begin());
+}
+
+std::vector<std::byte> EnergyWatchdog::save() const {
+  ByteWriter out;
+  out << on_ << ever_ << recent_;
+  return out.take();
+}
+
+void EnergyWatchdog::load(const std::vector<std::byte>& bytes) {
+  ByteReader(bytes) >> on_ >> ever_ >> recent_;
+}
+
+} // namespace sandglass

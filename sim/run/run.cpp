@@ -1,0 +1,217 @@
+#include "sim/run/run.h"
+
+#include "sim/base/error.h"
+#include "sim/base/version.h"
+#include "sim/run/run_recorder.h"
+#include "sim/run/stage_control.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace sandglass {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr double progressInterval = 0.1; ///< [s wall]
+constexpr double longestGroup = 0.05;    ///< [s wall] of steps between two looks at stop() and pause()
+constexpr const char* stageKey = "run/stage";
+
+} // namespace
+
+struct Run::Impl {
+  Scene scene;
+  RunOptions options;
+  Log log;
+  std::unique_ptr<Solver> solver;
+  std::unique_ptr<RunRecorder> recorder;
+  std::unique_ptr<StageControl> stages;
+  std::map<std::string, std::string> provenance;
+
+  double computing = 0, grainSteps = 0; ///< [s wall] in the solver, and what it did
+  double startFraction = 0;
+  double groupSteps = 1; ///< steps that take about longestGroup
+  Clock::time_point lastProgress, lastLive;
+  double progressComputing = 0, progressGrainSteps = 0; ///< at the last progress report
+
+  void setUp() {
+    const auto make = options.solverFactory ? options.solverFactory : SolverFactory(makeSolver);
+    solver = make(scene, SolverOptions{options.threads});
+    recorder = std::make_unique<RunRecorder>(scene, options, solver->stepSize(), log);
+    stages = std::make_unique<StageControl>(scene, *solver, recorder->log());
+    provenance = {
+        {"scene", sceneHash(scene)},          {"version", programVersion()},
+        {"seed", std::to_string(scene.seed)}, {"solver", scene.solver},
+        {"accuracy", scene.accuracy.level},   {"step_size", fmt::format("{} s", solver->stepSize())}};
+    if (const auto state = recorder->restore()) {
+      Solver::State solverState;
+      for (const auto& [name, bytes] : *state)
+        if (name.starts_with("solver/")) solverState[name.substr(7)] = bytes;
+      solver->load(solverState);
+      stages->load(state->at(stageKey));
+    }
+    recorder->open();
+    startFraction = stages->fraction();
+    lastProgress = lastLive = Clock::now();
+  }
+
+  /// The solver's frame with what only the run knows.
+  FramePtr frame() const {
+    auto copy = std::make_shared<Frame>(*solver->frame());
+    copy->stage = stages->name();
+    for (const auto& [key, value] : provenance)
+      copy->provenance[key] = value;
+    return copy;
+  }
+
+  void checkpoint() { recorder->checkpoint(*solver, {{stageKey, stages->save()}}); }
+
+  void advance(std::int64_t steps) {
+    const auto start = Clock::now();
+    const double work = static_cast<double>(solver->grains()) * static_cast<double>(steps);
+    solver->advance(steps);
+    const double seconds = secondsSince(start);
+    computing += seconds;
+    grainSteps += work;
+    const double fitting = static_cast<double>(steps) * longestGroup / std::max(seconds, 1e-9);
+    groupSteps = std::clamp(fitting, 1.0, std::max(1.0, 2 * groupSteps));
+  }
+
+  void reportProgress(const std::function<void(const Progress&)>& onProgress, bool force) {
+    if (!onProgress || (!force && secondsSince(lastProgress) < progressInterval)) return;
+    lastProgress = Clock::now();
+    Progress p;
+    p.stage = stages->name();
+    p.time = solver->time();
+    p.step = solver->step();
+    p.grains = solver->grains();
+    p.fraction = stages->fraction();
+    const double gained = p.fraction - startFraction;
+    p.secondsLeft = gained > 1e-3 ? computing * (1 - p.fraction) / gained : -1;
+    const double seconds = computing - progressComputing;
+    p.grainStepsPerSecond = seconds > 0 ? (grainSteps - progressGrainSteps) / seconds : 0;
+    progressComputing = computing;
+    progressGrainSteps = grainSteps;
+    onProgress(p);
+  }
+};
+
+Run::Run(Scene scene, RunOptions options, Log log) : impl_(std::make_unique<Impl>()) {
+  impl_->scene = std::move(scene);
+  impl_->options = std::move(options);
+  impl_->log = std::move(log);
+}
+
+Run::~Run() = default;
+
+const Scene& Run::scene() const {
+  return impl_->scene;
+}
+
+RunSummary Run::summary() const {
+  RunSummary s;
+  s.stages = impl_->scene.stages.size();
+  if (!impl_->stages) return s;
+  s.stagesDone = impl_->stages->index();
+  s.frames = impl_->recorder->frameCount();
+  s.time = impl_->solver->time();
+  s.steps = impl_->solver->step();
+  s.grains = impl_->solver->grains();
+  s.flow = impl_->solver->flow();
+  s.wallSeconds = impl_->computing;
+  s.grainSteps = impl_->grainSteps;
+  return s;
+}
+
+RunOutcome Run::execute() {
+  Impl& run = *impl_;
+  run.setUp();
+  try {
+    return loop();
+  } catch (const RunError& error) {
+    const std::string sentence = fmt::format("{}; {}", error.what(), run.recorder->lastCheckpoint());
+    report(run.recorder->log(), LogLevel::error, sentence);
+    throw RunError(sentence);
+  }
+}
+
+RunOutcome Run::loop() {
+  Impl& run = *impl_;
+  Solver& solver = *run.solver;
+  RunRecorder& recorder = *run.recorder;
+  StageControl& stages = *run.stages;
+  const auto live = [&](bool now) {
+    const double interval = run.options.liveInterval;
+    if (!onLiveFrame || interval <= 0 || (!now && secondsSince(run.lastLive) < interval)) return;
+    run.lastLive = Clock::now();
+    onLiveFrame(run.frame());
+  };
+  const auto save = [&] {
+    if (!recorder.needsFrame(solver.step())) return;
+    const FramePtr frame = run.frame();
+    recorder.write(frame);
+    if (onSavedFrame) onSavedFrame(frame);
+  };
+
+  const bool fresh = solver.step() == 0 && recorder.frameCount() == 0;
+  stages.begin();
+  if (fresh) {
+    recorder.sample(solver, false, onSample);
+    save();
+    run.checkpoint();
+  }
+  live(true);
+  bool shown = false; // the state in which the run was paused
+  std::int64_t checkpointed = solver.step();
+  while (!stages.done()) {
+    if (stop_) {
+      if (checkpointed != solver.step()) run.checkpoint();
+      run.reportProgress(onProgress, true);
+      return RunOutcome::stopped;
+    }
+    std::int64_t allowed = std::max<std::int64_t>(1, static_cast<std::int64_t>(run.groupSteps));
+    if (paused_) {
+      const int asked = single_.exchange(0);
+      if (asked <= 0) {
+        if (!shown) live(true);
+        shown = true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        continue;
+      }
+      allowed = std::min<std::int64_t>(allowed, asked);
+      single_ += asked - static_cast<int>(allowed); // the rest in the next round
+    }
+    const std::int64_t step = solver.step();
+    const std::int64_t until = std::min(stages.nextLook(), recorder.nextDue(step));
+    const std::int64_t steps = std::min(allowed, until - step);
+    if (paused_ && steps < allowed) single_ += static_cast<int>(allowed - steps);
+    run.advance(steps);
+    shown = false;
+
+    stages.look();
+    recorder.sample(solver, stages.done(), onSample);
+    if (recorder.frameDue(solver.step()) || stages.done()) save();
+    if (!stages.done()) stages.begin();
+    if (recorder.checkpointDue(solver.step()) || stages.done()) {
+      run.checkpoint();
+      checkpointed = solver.step();
+    }
+    live(false);
+    run.reportProgress(onProgress, stages.done());
+  }
+  live(true);
+  report(recorder.log(), LogLevel::info,
+         fmt::format("the run is complete: {:.6g} s in {} steps, {} frames", solver.time(), solver.step(),
+                     recorder.frameCount()));
+  return RunOutcome::finished;
+}
+
+} // namespace sandglass

@@ -1,0 +1,149 @@
+#include "sim/run/stage_control.h"
+
+#include "sim/run/bytes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandglass {
+
+namespace {
+
+std::int64_t stepsIn(double duration, double stepSize) {
+  return std::llround(duration / stepSize);
+}
+
+} // namespace
+
+StageControl::StageControl(const Scene& scene, Solver& solver, Log log)
+    : scene_(scene), solver_(solver), log_(std::move(log)), watchdog_(scene) {}
+
+void StageControl::begin() {
+  if (begun_ || done()) return;
+  const StageSpec& stage = scene_.stages[stage_];
+  for (const auto& wall : stage.removeWalls)
+    solver_.removeWall(wall);
+  const double before = solver_.energies().total();
+  const auto grains = placeGrains(scene_, stage.name, solver_.nextId(), solver_.present(), log_);
+  if (!grains.empty()) {
+    solver_.add(grains);
+    watchdog_.entered(grains, solver_.energies().total() - before);
+  }
+  rain_ = makeRain(scene_, stage.name);
+  begun_ = true;
+  start_ = solver_.step();
+  massAtStart_ = solver_.flow().massDischarged;
+  grainsAtStart_ = static_cast<std::int64_t>(solver_.grains());
+  std::string walls;
+  for (const auto& wall : stage.removeWalls)
+    walls += (walls.empty() ? "; walls removed: " : ", ") + wall;
+  report(log_, LogLevel::info,
+         fmt::format("stage '{}' begins at {:.6g} s with {} grains ({} placed now){}{}", stage.name,
+                     solver_.time(), solver_.grains(), grains.size(), rain_ ? "; it rains" : "", walls));
+}
+
+std::int64_t StageControl::stageSteps() const {
+  return solver_.step() - start_;
+}
+
+std::int64_t StageControl::nextLook() const {
+  std::int64_t next = (stageSteps() / shortInterval + 1) * shortInterval;
+  if (const auto& duration = scene_.stages[stage_].duration)
+    next = std::min(next, std::max(stageSteps() + 1, stepsIn(*duration, solver_.stepSize())));
+  return start_ + next;
+}
+
+void StageControl::look() {
+  const std::int64_t steps = stageSteps();
+  if (steps > 0 && steps % shortInterval == 0 && rain_ && !rain_->finished()) {
+    const auto free = [&](const Vec3& position, double radius) { return solver_.isFree(position, radius); };
+    const auto grains = rain_->due(static_cast<double>(steps) * solver_.stepSize(), solver_.nextId(), free);
+    if (!grains.empty()) {
+      solver_.add(grains);
+      watchdog_.entered(grains);
+    }
+  }
+  const bool longLook = steps > 0 && steps % longInterval == 0;
+  if (longLook) watchdog_.check(solver_, solver_.energies());
+  if (!ended(longLook)) return;
+  report(log_, LogLevel::info,
+         fmt::format("stage '{}' ends at {:.6g} s after {} steps with {} grains", scene_.stages[stage_].name,
+                     solver_.time(), steps, solver_.grains()));
+  ++stage_;
+  begun_ = false;
+  rain_.reset();
+}
+
+bool StageControl::ended(bool longLook) const {
+  const StageSpec& stage = scene_.stages[stage_];
+  const std::int64_t steps = stageSteps();
+  const double dt = solver_.stepSize();
+  if (stage.duration && steps >= stepsIn(*stage.duration, dt)) return true;
+  if (steps % shortInterval != 0) return false;
+  const bool raining = rain_ && !rain_->finished();
+  if (stage.untilEmpty && !raining && solver_.grains() == 0) return true;
+  const Flow& flow = solver_.flow();
+  if (stage.massDischarged && flow.massDischarged - massAtStart_ >= *stage.massDischarged) return true;
+  const double quietSince = std::max(static_cast<double>(start_) * dt, flow.lastDischarge);
+  if (stage.quietTime && solver_.time() - quietSince >= *stage.quietTime) return true;
+  if (!longLook || !stage.settledKineticEnergy || raining || steps < stepsIn(stage.settledAfter, dt))
+    return false;
+  const Energies energies = solver_.energies();
+  const auto grains = static_cast<double>(std::max<std::size_t>(solver_.grains(), 1));
+  return (energies.translational + energies.rotational) / grains < *stage.settledKineticEnergy;
+}
+
+const std::string& StageControl::name() const {
+  static const std::string none;
+  const std::size_t current = begun_ ? stage_ + 1 : stage_; // number of stages that have begun
+  return current == 0 ? none : scene_.stages[current - 1].name;
+}
+
+double StageControl::stageFraction() const {
+  if (!begun_ || done()) return 0;
+  const StageSpec& stage = scene_.stages[stage_];
+  double fraction = 0;
+  if (stage.duration) fraction = static_cast<double>(stageSteps()) * solver_.stepSize() / *stage.duration;
+  if (stage.massDischarged)
+    fraction = std::max(fraction, (solver_.flow().massDischarged - massAtStart_) / *stage.massDischarged);
+  if (stage.untilEmpty && grainsAtStart_ > 0)
+    fraction =
+        std::max(fraction, 1 - static_cast<double>(solver_.grains()) / static_cast<double>(grainsAtStart_));
+  return std::clamp(fraction, 0.0, 1.0);
+}
+
+double StageControl::fraction() const {
+  // Stages weigh as long as they last, where that is known for all; else they weigh the same.
+  double done = 0, all = 0;
+  const bool known = std::all_of(scene_.stages.begin(), scene_.stages.end(),
+                                 [](const StageSpec& s) { return s.duration.has_value(); });
+  for (std::size_t i = 0; i < scene_.stages.size(); ++i) {
+    const double weight = known ? *scene_.stages[i].duration : 1;
+    all += weight;
+    done += i < stage_ ? weight : i == stage_ ? weight * stageFraction() : 0;
+  }
+  return all > 0 ? done / all : 1;
+}
+
+std::vector<std::byte> StageControl::save() const {
+  ByteWriter out;
+  out << static_cast<std::uint64_t>(stage_) << begun_ << start_ << massAtStart_ << grainsAtStart_
+      << (rain_ ? rain_->state() : std::vector<std::int64_t>{}) << watchdog_.save();
+  return out.take();
+}
+
+void StageControl::load(const std::vector<std::byte>& bytes) {
+  std::uint64_t stage = 0;
+  std::vector<std::int64_t> rain;
+  std::vector<std::byte> watchdog;
+  ByteReader(bytes) >> stage >> begun_ >> start_ >> massAtStart_ >> grainsAtStart_ >> rain >> watchdog;
+  stage_ = stage;
+  watchdog_.load(watchdog);
+  rain_.reset();
+  if (begun_ && !done()) rain_ = makeRain(scene_, scene_.stages[stage_].name);
+  if (rain_) rain_->setState(rain);
+}
+
+} // namespace sandglass

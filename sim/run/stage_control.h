@@ -1,0 +1,59 @@
+#pragma once
+// Takes a run from stage to stage: what a stage changes at its start, rain while it lasts, when it ends.
+//
+// All decisions fall at fixed steps after the stage's start, so they do not depend on how the steps in
+// between are grouped.
+
+#include "sim/base/log.h"
+#include "sim/run/energy_watchdog.h"
+#include "sim/scene/scene.h"
+#include "sim/solvers/solver.h"
+
+#include <memory>
+#include <string>
+
+namespace sandglass {
+
+class StageControl {
+public:
+  /// Steps between two looks at rain and cheap end conditions (mass, number of grains).
+  static constexpr std::int64_t shortInterval = 20;
+  /// Steps between two sums over all grains (settled?, energy from nowhere?); a multiple of shortInterval.
+  static constexpr std::int64_t longInterval = 200;
+
+  StageControl(const Scene& scene, Solver& solver, Log log);
+
+  /// Starts the current stage unless it has started: removes walls, places grains. Throws InputError when
+  /// they do not fit.
+  void begin();
+  /// The next step at which look() has something to do.
+  std::int64_t nextLook() const;
+  /// After steps: rain, energy check, end conditions. Throws RunError from the energy check.
+  void look();
+
+  bool done() const { return stage_ >= scene_.stages.size(); } ///< all stages have ended
+  std::size_t index() const { return stage_; }
+  const std::string& name() const; ///< of the stage that last began; empty before the first
+  double fraction() const;         ///< of the whole run, 0..1, an estimate
+
+  std::vector<std::byte> save() const;
+  void load(const std::vector<std::byte>& bytes);
+
+private:
+  std::int64_t stageSteps() const; ///< since the stage began
+  bool ended(bool longLook) const;
+  double stageFraction() const;
+
+  const Scene& scene_;
+  Solver& solver_;
+  Log log_;
+  EnergyWatchdog watchdog_;
+  std::size_t stage_ = 0;
+  bool begun_ = false;
+  std::int64_t start_ = 0; ///< step at which the stage began
+  double massAtStart_ = 0; ///< [kg] discharged before the stage
+  std::int64_t grainsAtStart_ = 0;
+  std::unique_ptr<Rain> rain_;
+};
+
+} // namespace sandglass
