@@ -148,7 +148,7 @@ void RunRecorder::write(FramePtr frame) {
   if (queue_) queue_->push(std::move(frame));
 }
 
-void RunRecorder::checkpoint(const Solver& solver, Solver::State runState) {
+void RunRecorder::checkpoint(Solver& solver, Solver::State runState) {
   if (!writes()) return;
   queue_->closeSegment();
   const auto segments = segmentFiles(folder_ / "frames");

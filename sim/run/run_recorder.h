@@ -37,7 +37,7 @@ public:
   bool needsFrame(std::int64_t step) const { return step != lastFrame_; }
   void write(FramePtr frame);
   /// Closes the segment, then writes solver and run state.
-  void checkpoint(const Solver& solver, Solver::State runState);
+  void checkpoint(Solver& solver, Solver::State runState);
 
   std::size_t frameCount() const { return frameCount_; }
   const Log& log() const { return log_; } ///< to the caller's log and log.txt

@@ -11,6 +11,8 @@ namespace sandglass {
 
 namespace {
 
+constexpr double quietBeforeFlow = 10;
+
 std::int64_t stepsIn(double duration, double stepSize) {
   return std::llround(duration / stepSize);
 }
@@ -86,8 +88,13 @@ bool StageControl::ended(bool longLook) const {
   if (stage.untilEmpty && !raining && solver_.grains() == 0) return true;
   const Flow& flow = solver_.flow();
   if (stage.massDischarged && flow.massDischarged - massAtStart_ >= *stage.massDischarged) return true;
-  const double quietSince = std::max(static_cast<double>(start_) * dt, flow.lastDischarge);
-  if (stage.quietTime && solver_.time() - quietSince >= *stage.quietTime) return true;
+  if (stage.quietTime) {
+    // The first grains need time to reach the outlet: until one has left, quiet must last ten times as long.
+    const double began = static_cast<double>(start_) * dt;
+    const bool flowing = flow.lastDischarge > began;
+    const double quiet = solver_.time() - (flowing ? flow.lastDischarge : began);
+    if (quiet >= (flowing ? 1 : quietBeforeFlow) * *stage.quietTime) return true;
+  }
   if (!longLook || !stage.settledKineticEnergy || raining || steps < stepsIn(stage.settledAfter, dt))
     return false;
   const Energies energies = solver_.energies();

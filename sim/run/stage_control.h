@@ -18,6 +18,8 @@ class StageControl {
 public:
   /// Steps between two looks at rain and cheap end conditions (mass, number of grains).
   static constexpr std::int64_t shortInterval = 20;
+  // A stage's quiet_time counts from the last grain that left in the stage; before any has, ten times the
+  // time must pass.
   /// Steps between two sums over all grains (settled?, energy from nowhere?); a multiple of shortInterval.
   static constexpr std::int64_t longInterval = 200;
 
