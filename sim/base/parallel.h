@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <cstdint>
 
 namespace sandglass {
@@ -17,10 +16,10 @@ class Parallel {
 public:
   /// threads = 0: all cores.
   explicit Parallel(int threads)
-      : threads_(threads > 0 ? threads : tbb::info::default_concurrency()),
-        limit_(tbb::global_control::max_allowed_parallelism, // more threads than cores, where somebody asks
-               static_cast<std::size_t>(std::max(threads_, tbb::info::default_concurrency()))),
-        arena_(threads_) {}
+      : threads_(threads > 0 ? threads : tbb::info::default_concurrency()), arena_(threads_) {
+    // One limit for the whole program, above any sensible request: the smallest limit alive would win.
+    static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 256);
+  }
 
   int threads() const { return threads_; }
 
@@ -40,7 +39,6 @@ public:
 
 private:
   int threads_;
-  tbb::global_control limit_;
   tbb::task_arena arena_;
 };
 
