@@ -1,6 +1,6 @@
 #pragma once
-// The subcommands of `sandglass`, one file each. Each adds itself to the parser and sets `action` when chosen.
-// Exit codes: 0 done, 1 the run or comparison failed, 2 the input is wrong.
+// The subcommands of `sandglass`, one file each. Each adds itself to the parser and sets `action` when
+// chosen. Exit codes: 0 done, 1 the run or comparison failed, 2 the input is wrong.
 
 #include <CLI/CLI.hpp>
 
@@ -10,7 +10,8 @@ namespace sandglass::cli {
 
 using Action = std::function<int()>;
 
-// Each of these lives in <name>_command.cpp and is called once from main.cpp:
-//   void addRun(CLI::App& app, Action& action);
+// Each of these lives in <name>_command.cpp and is called once from main.cpp.
+void addRun(CLI::App& app, Action& action);
+void addConvert(CLI::App& app, Action& action);
 
 } // namespace sandglass::cli

@@ -12,6 +12,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Granular flow: simulate, render, analyse."};
   app.require_subcommand(1);
   cli::Action action;
+  cli::addRun(app, action);
+  cli::addConvert(app, action);
 
   try {
     app.parse(argc, argv);
@@ -21,7 +23,8 @@ int main(int argc, char** argv) {
   try {
     return action();
   } catch (const InputError& e) {
-    for (const auto& sentence : e.sentences()) std::fprintf(stderr, "sandglass: %s\n", sentence.c_str());
+    for (const auto& sentence : e.sentences())
+      std::fprintf(stderr, "sandglass: %s\n", sentence.c_str());
     return 2;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "sandglass: %s\n", e.what());

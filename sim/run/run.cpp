@@ -43,6 +43,8 @@ struct Run::Impl {
   double progressComputing = 0, progressGrainSteps = 0; ///< at the last progress report
 
   void setUp() {
+    if (!options.solverFactory)
+      if (const auto refusals = solverRefusals(scene); !refusals.empty()) throw InputError(refusals);
     const auto make = options.solverFactory ? options.solverFactory : SolverFactory(makeSolver);
     solver = make(scene, SolverOptions{options.threads});
     recorder = std::make_unique<RunRecorder>(scene, options, solver->stepSize(), log);

@@ -1,0 +1,94 @@
+// sandglass convert: frames into forms that other programs read.
+
+#include "app/cli/commands.h"
+#include "app/cli/console.h"
+#include "sim/base/error.h"
+#include "sim/io/frame_segment.h"
+#include "sim/io/run_folder.h"
+#include "sim/io/segment_names.h"
+#include "sim/io/table_export.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace sandglass::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ConvertArguments {
+  std::string input, output, frame;
+};
+
+/// "last", or a number from 0; negative ones count from the end.
+std::size_t frameNumber(const std::string& text, std::size_t count, const std::string& source) {
+  if (count == 0) throw InputError(fmt::format("{}: there are no frames yet", source));
+  if (text == "last") return count - 1;
+  try {
+    std::size_t used = 0;
+    const long long number = std::stoll(text, &used);
+    const long long index = number < 0 ? static_cast<long long>(count) + number : number;
+    if (used == text.size() && index >= 0 && index < static_cast<long long>(count))
+      return static_cast<std::size_t>(index);
+  } catch (const std::logic_error&) { // not a number; the sentence below says so
+  }
+  throw InputError(
+      fmt::format("--frame {}: {} has the frames 0 to {}; give one of them, -1 for the last, or 'last'", text,
+                  source, count - 1));
+}
+
+std::string sceneTextOf(const fs::path& input) {
+  if (!fs::is_directory(input)) return SegmentReader(input).sceneText();
+  const auto segments = segmentFiles(input / "frames");
+  return segments.empty() ? "" : SegmentReader(segments.front()).sceneText();
+}
+
+int execute(const ConvertArguments& arguments) {
+  const fs::path output(arguments.output);
+  const std::string form = output.extension().string();
+  const auto frames = openFrames(arguments.input);
+  if (const fs::path folder = output.parent_path(); !folder.empty()) fs::create_directories(folder);
+  const bool one = !arguments.frame.empty();
+  const std::size_t chosen =
+      one || form == ".vtp" ? frameNumber(one ? arguments.frame : "last", frames->size(), frames->name()) : 0;
+  if (one && form != ".vtp" && form != ".csv")
+    throw InputError(
+        fmt::format("--frame {}: only .vtp and .csv hold a single frame; leave --frame out for {}",
+                    arguments.frame, form));
+  if (form == ".vtp")
+    exportVtp(*frames->load(chosen), output);
+  else if (form == ".csv")
+    exportCsv(*frames, chosen, one ? chosen + 1 : frames->size(), output);
+  else if (form == ".pvd")
+    exportPvd(*frames, output);
+  else if (form == ".vtkhdf") {
+    const std::string scene = sceneTextOf(arguments.input);
+    const bool single =
+        parseScene(scene, arguments.input + " (scene inside)").output.singlePrecisionPositions;
+    exportVtkhdf(*frames, scene, single, output);
+  } else
+    throw InputError(
+        fmt::format("{}: the ending '{}' names no form that is written; there are .vtp (one frame), .pvd "
+                    "(all frames as .vtp), .vtkhdf (all frames in one file) and .csv",
+                    output.string(), form));
+  fmt::print("{}: {}\n", output.string(),
+             one || form == ".vtp" ? fmt::format("frame {} at {:.6g} s", chosen, frames->time(chosen))
+                                   : fmt::format("{} frames", frames->size()));
+  return 0;
+}
+
+} // namespace
+
+void addConvert(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<ConvertArguments>();
+  CLI::App* command = app.add_subcommand("convert", "Write frames as .vtp, .pvd, .csv or one .vtkhdf");
+  command->add_option("RUN", arguments->input, "folder of a run, or one .vtkhdf file")->required();
+  command->add_option("OUT", arguments->output, "file to write; its ending names the form")->required();
+  command->add_option("--frame", arguments->frame,
+                      "only this frame: a number, negative from the end, or 'last'");
+  command->callback([arguments, &action] { action = [arguments] { return execute(*arguments); }; });
+}
+
+} // namespace sandglass::cli
