@@ -17,6 +17,29 @@ double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
 
+double slopeOf(const Camera& camera) {
+  return std::tan(radians(camera.viewAngle) / 2);
+}
+
+/// What the corners of a box take of the picture, in picture heights from its middle.
+struct Outline {
+  double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
+};
+
+Outline outlineOf(const Eigen::AlignedBox3d& box, const Camera& camera, const CameraAxes& axes) {
+  Outline outline;
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 d = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)) - camera.position;
+    const double nearest = 1e-6 * box.diagonal().norm(); // a corner behind the eye asks for more distance
+    const double height = camera.orthographic ? camera.orthographicHeight
+                                              : 2 * slopeOf(camera) * std::max(d.dot(axes.forward), nearest);
+    const double x = d.dot(axes.right) / height, y = d.dot(axes.up) / height;
+    outline = {std::min(outline.left, x), std::max(outline.right, x), std::min(outline.bottom, y),
+               std::max(outline.top, y)};
+  }
+  return outline;
+}
+
 /// Index of the periodic direction that makes the box a slice, or -1.
 int thinDirection(const Eigen::AlignedBox3d& box, const std::array<bool, 3>& periodic) {
   constexpr double thin = 0.2;
@@ -30,7 +53,7 @@ int thinDirection(const Eigen::AlignedBox3d& box, const std::array<bool, 3>& per
 Vec3 sideOf(const std::string& preset, int thin, const Vec3& up) {
   // Looking at the front, x runs to the right.
   const Vec3 right = Vec3::UnitX(), front = right.cross(up);
-  const Vec3 threeQuarter = (0.45 * right + front + 0.32 * up).normalized();
+  const Vec3 threeQuarter = (0.45 * right + front + 0.42 * up).normalized();
   if (preset == "fit") {
     if (thin == 0) return Vec3::UnitX();
     return thin > 0 ? front : threeQuarter;
@@ -63,7 +86,7 @@ CameraAxes axesOf(const Camera& camera) {
 
 double heightAtTarget(const Camera& camera) {
   if (camera.orthographic) return camera.orthographicHeight;
-  return 2 * (camera.target - camera.position).norm() * std::tan(radians(camera.viewAngle) / 2);
+  return 2 * (camera.target - camera.position).norm() * slopeOf(camera);
 }
 
 Camera resolve(const Camera& camera, const Eigen::AlignedBox3d& box, const std::array<bool, 3>& periodic,
@@ -75,27 +98,30 @@ Camera resolve(const Camera& camera, const Eigen::AlignedBox3d& box, const std::
 
   Camera result = camera;
   result.preset.clear();
-  result.up = std::abs(side.dot(up)) > 0.999 ? Vec3(Vec3::UnitX().cross(side) * -1) : up;
+  result.up = std::abs(side.dot(up)) > 0.999 ? Vec3(side.cross(Vec3::UnitX())) : up;
   result.target = box.center();
-  result.position = result.target + side;
+  result.position = result.target + side * std::max(box.diagonal().norm(), 1e-9) / slopeOf(camera);
+  result.orthographicHeight = std::max(box.diagonal().norm(), 1e-9);
   const CameraAxes axes = axesOf(result);
+  const double wide = (frameable.right - frameable.left) * aspect, high = frameable.bottom - frameable.top;
+  const double middleX = ((frameable.left + frameable.right) / 2 - 0.5) * aspect;
+  const double middleY = 0.5 - (frameable.top + frameable.bottom) / 2;
 
-  // Extents of the eight corners about the centre, and from the middle of those the picture's middle.
-  const double wide = frameable.right - frameable.left, high = frameable.bottom - frameable.top;
-  const double slope = std::tan(radians(camera.viewAngle) / 2);
-  double distance = 0, orthographicHeight = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 d = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - result.target;
-    const double x = std::abs(d.dot(axes.right)) / (aspect * wide), y = std::abs(d.dot(axes.up)) / high;
-    orthographicHeight = std::max({orthographicHeight, 2 * x, 2 * y});
-    distance = std::max(distance, std::max(x, y) / slope - d.dot(axes.forward));
+  // Move and approach until the corners fill the free part; perspective makes that a fixed-point iteration.
+  constexpr int iterations = 100;
+  for (int k = 0; k < iterations; ++k) {
+    const Outline outline = outlineOf(box, result, axes);
+    const double scale =
+        std::max((outline.right - outline.left) / wide, (outline.top - outline.bottom) / high);
+    if (k > 0 && std::abs(scale - 1) < 1e-12) break;
+    const double height = heightAtTarget(result);
+    result.target += height * (axes.right * ((outline.left + outline.right) / 2 - middleX * scale) +
+                               axes.up * ((outline.bottom + outline.top) / 2 - middleY * scale));
+    result.orthographicHeight *= scale;
+    result.position = result.target + side * heightAtTarget(result) * (result.orthographic ? 1 : scale) /
+                                          (2 * slopeOf(result));
   }
-  const double height = result.orthographic ? orthographicHeight : 2 * distance * slope;
-  const Vec3 shift = axes.right * (0.5 - (frameable.left + frameable.right) / 2) * height * aspect +
-                     axes.up * ((frameable.top + frameable.bottom) / 2 - 0.5) * height;
-  result.target += shift;
-  result.position = result.target + side * std::max(distance, 1e-9);
-  result.orthographicHeight = result.orthographic ? orthographicHeight : height;
+  if (!result.orthographic) result.orthographicHeight = heightAtTarget(result);
   return result;
 }
 

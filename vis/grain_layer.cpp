@@ -6,6 +6,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkProperty.h>
+#include <vtkShaderProperty.h>
 
 #include <numeric>
 
@@ -28,9 +29,23 @@ GrainLayer::GrainLayer() {
   mapper->SetColorModeToDirectScalars();
   mapper->SetScalarModeToUsePointData();
   actor_->SetMapper(mapper);
-  actor_->GetProperty()->SetAmbient(0.22);
-  actor_->GetProperty()->SetDiffuse(0.78);
-  actor_->GetProperty()->SetSpecular(0.10);
+  // VTK's triangle around each sphere covers a disc of its radius at its centre. From a near eye the outline,
+  // the tangent cone, is wider by 1 / sqrt(1 - (r / distance)^2) and would be cut flat on three sides.
+  actor_->GetShaderProperty()->AddGeometryShaderReplacement(
+      "//VTK::Picking::Impl", true,
+      "//VTK::Picking::Impl\n"
+      "  if (cameraParallel == 0)\n"
+      "    {\n"
+      "    float sine = min(radiusVCGSOutput / length(centerVCGSOutput), 0.99);\n"
+      "    float wider = 1.0 / sqrt(1.0 - sine * sine);\n"
+      "    base1 *= wider;\n"
+      "    base2 *= wider;\n"
+      "    }\n",
+      false);
+  // The brightest spot has just the colour of the map: ambient + diffuse * |0.90 key + 0.38 fill| + specular = 1.
+  actor_->GetProperty()->SetAmbient(0.30);
+  actor_->GetProperty()->SetDiffuse(0.63);
+  actor_->GetProperty()->SetSpecular(0.04);
   actor_->GetProperty()->SetSpecularPower(25);
 }
 

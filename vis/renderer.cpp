@@ -56,7 +56,7 @@ void addLights(vtkRenderer* renderer) {
   struct Place {
     double x, y, z, intensity;
   };
-  for (const auto& [x, y, z, intensity] : {Place{-0.5, 0.8, 1.2, 0.80}, Place{0.9, -0.2, 0.8, 0.30}}) {
+  for (const auto& [x, y, z, intensity] : {Place{-0.45, 0.75, 1.2, 0.90}, Place{0.9, -0.3, 0.9, 0.38}}) {
     vtkNew<vtkLight> light;
     light->SetLightTypeToCameraLight();
     light->SetPosition(x, y, z);
@@ -123,8 +123,9 @@ Colours coloursOf(const Frame& frame, const Colouring& colouring, const VisibleG
 void refuseBadSize(int width, int height) {
   constexpr int smallest = 16, largest = 16384; // what Mesa's rasteriser draws into
   if (std::min(width, height) < smallest || std::max(width, height) > largest)
-    throw InputError(fmt::format("a picture of {} x {} pixels cannot be drawn; each side must be from {} to {}", width,
-                                 height, smallest, largest));
+    throw InputError(
+        fmt::format("a picture of {} x {} pixels cannot be drawn; each side must be from {} to {}", width,
+                    height, smallest, largest));
 }
 
 /// VTK's font cache, GLEW's table and more are shared by the whole process: one renderer works at a time.

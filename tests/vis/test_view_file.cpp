@@ -1,0 +1,86 @@
+// Views: what is written is read back; what is wrong is said.
+
+#include "sim/base/error.h"
+#include "vis/view.h"
+
+#include <catch2/catch.hpp>
+
+using namespace sandglass;
+using namespace sandglass::vis;
+
+TEST_CASE("a view that is written and read is the same view") {
+  View view;
+  view.title = "Quotes \" and\nlines, ü";
+  view.camera.preset.clear();
+  view.camera.position = Vec3(0.1, -1.0 / 3, 1e-17);
+  view.camera.viewAngle = 20.5;
+  view.colouring = {
+      .quantity = "|spin|", .map = "dune", .range = ColourRange::fixed, .low = -1e-3, .high = 2.5};
+  view.clips = {{Vec3(0, 0.003, 0), Vec3(0, -1, 0)}, {Vec3(1, 2, 3), Vec3(0.5, 0.5, 0)}};
+  view.legend = false;
+  view.wallOpacity = 0.3;
+  view.background = {0.1, 0.1, 0.12};
+  view.width = 641;
+  view.maximumGrains = 5000;
+  const std::string text = writeView(view);
+  const View back = parseView(text, "view.toml");
+  CHECK(writeView(back) == text);
+  CHECK(back.title == view.title);
+  CHECK(back.camera.position == view.camera.position);
+  CHECK(back.colouring.low == view.colouring.low);
+  CHECK(back.colouring.range == ColourRange::fixed);
+  REQUIRE(back.clips.size() == 2);
+  CHECK(back.clips[1].normal == view.clips[1].normal);
+  CHECK_FALSE(back.legend);
+  CHECK(back.width == 641);
+}
+
+TEST_CASE("an empty view file is the default view") {
+  CHECK(writeView(parseView("", "view.toml")) == writeView(View{}));
+}
+
+TEST_CASE("each fault of a view is a sentence") {
+  struct Fault {
+    const char* toml;
+    const char* sentence;
+  };
+  const Fault faults[] = {
+      {"widht = 3", "v.toml:1: widht is not a known key; known are: axes, background"},
+      {"\nwidth = 3.5", "v.toml:2: width is 3.5; it must be a whole number from 16 to 16384."},
+      {"height = 8", "v.toml:1: height is 8; it must be a whole number from 16 to 16384."},
+      {"legend = \"yes\"", "v.toml:1: legend is 'yes'; it must be true or false."},
+      {"wall_opacity = 2", "v.toml:1: wall_opacity is 2; it must be a number from 0 to 1."},
+      {"background = [1, 2, 3]", "it must be three numbers from 0 to 1, [red, green, blue]."},
+      {"[camera]\npreset = \"side\"",
+       "v.toml:2: camera.preset is 'side'; it must be one of: \"fit\", \"front\""},
+      {"[camera]\nposition = [0, 1]",
+       "v.toml:2: camera.position is [ 0, 1 ]; it must be three finite numbers, [x, y, z]."},
+      {"[camera]\npreset = \"\"\nposition = [0, 0, 0]", "v.toml:3: camera.position equals the target"},
+      {"[camera]\nup = [0, 0, 0]", "v.toml:2: camera.up is the zero vector; give a direction."},
+      {"[camera]\nview_angle = nan", "camera.view_angle is nan; it must be a number from 0.01 to 170."},
+      {"[colouring]\nmap = \"jet\"", "v.toml:2: colouring.map is 'jet'; it must be one of: \"viridis\""},
+      {"[colouring]\nrange = \"fixed\"\nlow = 2\nhigh = 2",
+       "v.toml:4: colouring.high is 2; it must be above low, 2."},
+      {"[[clip]]\nnormal = [0, 0, 0]", "v.toml:2: clip.normal is the zero vector"},
+      {"clip = 3", "v.toml:1: clip is 3; it must be a list of tables, [[clip]]."},
+      {"camera = 1", "v.toml:1: camera is 1; it must be a table, [camera]."},
+      {"width = ", "v.toml:1: this is not TOML"},
+  };
+  for (const auto& [toml, sentence] : faults) {
+    INFO(toml);
+    CHECK_THROWS_WITH(parseView(toml, "v.toml"), Catch::Contains(sentence));
+  }
+}
+
+TEST_CASE("all faults of a view come at once") {
+  try {
+    parseView("widht = 3\nlegend = 1\n[camera]\npreset = \"side\"", "v.toml");
+    FAIL("no error");
+  } catch (const InputError& e) {
+    CHECK(e.sentences().size() == 3);
+  }
+}
+
+TEST_CASE("a view file that is not there is named") {
+  CHECK_THROWS_WITH(readView("no/such.toml"), Catch::Contains("no/such.toml"));
+}
