@@ -14,4 +14,8 @@ using Action = std::function<int()>;
 void addRun(CLI::App& app, Action& action);
 void addConvert(CLI::App& app, Action& action);
 
+#ifdef SANDGLASS_VIS
+void addRender(CLI::App& app, Action& action);
+#endif
+
 } // namespace sandglass::cli

@@ -14,6 +14,9 @@ int main(int argc, char** argv) {
   cli::Action action;
   cli::addRun(app, action);
   cli::addConvert(app, action);
+#ifdef SANDGLASS_VIS
+  cli::addRender(app, action);
+#endif
 
   try {
     app.parse(argc, argv);

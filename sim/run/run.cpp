@@ -53,6 +53,7 @@ struct Run::Impl {
         {"scene", sceneHash(scene)},          {"version", programVersion()},
         {"seed", std::to_string(scene.seed)}, {"solver", scene.solver},
         {"accuracy", scene.accuracy.level},   {"step_size", fmt::format("{} s", solver->stepSize())}};
+    if (!scene.title.empty()) provenance["title"] = scene.title;
     if (const auto state = recorder->restore()) {
       Solver::State solverState;
       for (const auto& [name, bytes] : *state)

@@ -84,11 +84,12 @@ TEST_CASE("the grain that is picked is the one whose colour is seen") {
       if (!alone) continue;
       const double light = at(white, x, y)[1] - at(black, x, y)[1];
       if (light < 60) continue;
-      // Viridis' green rises all along the map: it tells the id. Four roundings to 8 bits lie in between.
+      // Viridis' green rises all along the map: it tells the id. Roundings to 8 bits and the smoothing of the
+      // shaded rim lie in between; another grain would be off by 80 on average.
       const double green =
           at(black, x, y)[1] + light * map.at(static_cast<double>(grain - 100) / 59)[1] / 255;
       ++compared;
-      wrong += std::abs(at(image, x, y)[1] - green) > 3;
+      wrong += std::abs(at(image, x, y)[1] - green) > 6;
     }
   CHECK(compared > 500);
   CHECK(wrong == 0);
