@@ -1,5 +1,6 @@
 #pragma once
 // The fillings that place grains at once; one file each. seeding.cpp calls them in the order of the scene.
+// Their InputErrors are phrases that continue "FILE: fill.1 ...".
 
 #include "sim/grains/open_space.h"
 #include "sim/grains/placement_grid.h"
@@ -18,8 +19,11 @@ struct FillContext {
   const OpenSpace& open;
   PlacementGrid& placed;
   std::int64_t firstId;
-  std::string name; ///< "fill.1", for messages
+  std::string name; ///< "fill.1", for the log
 };
+
+/// Solid fraction up to which random insertion is quick; and where it ends for spheres of one size.
+inline constexpr double quickSolidFraction = 0.3, jammedSolidFraction = 0.38;
 
 /// Random sequential insertion, large grains first. Throws InputError when they do not all find room.
 std::vector<GrainSeed> fillRandomly(const FillContext& context);

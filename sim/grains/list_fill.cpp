@@ -26,16 +26,15 @@ std::vector<GrainSeed> fillFromList(const FillContext& context) {
     g.velocity = p.vectors("velocities")[i];
     g.spin = p.vectors("spins")[i];
     const auto fault = [&](const std::string& what) {
-      faults.push_back(fmt::format("{}: grain {} of {} at ({:.6g}, {:.6g}, {:.6g}) m {}; move it", scene.file,
-                                   i + 1, context.name, g.position.x(), g.position.y(), g.position.z(),
-                                   what));
+      faults.push_back(fmt::format("has grain {} at ({:.6g}, {:.6g}, {:.6g}) m {}; move it", i + 1,
+                                   g.position.x(), g.position.y(), g.position.z(), what));
     };
     if (const std::string obstacle = context.open.obstacle(g.position, g.radius, mayOverlap);
         !obstacle.empty())
-      fault("lies in or beyond " + obstacle);
+      fault("in or beyond " + obstacle);
     else if (const double overlap = context.placed.overlap(g.position, g.radius); overlap > mayOverlap)
       fault(fmt::format(
-          "overlaps another grain by {:.3g} of the smaller radius, which is more than maximum_overlap = {}",
+          "overlapping another grain by {:.3g} of the smaller radius, more than maximum_overlap = {}",
           overlap, mayOverlap));
     context.placed.add(g.position, g.radius);
     grains.push_back(g);

@@ -20,15 +20,14 @@ namespace {
 constexpr std::int64_t mostTriesOfOne = 100'000;
 constexpr std::int64_t mostTriesPerGrain = 2'000; ///< on average over the filling
 
-[[noreturn]] void refuse(const FillContext& context, std::size_t placed, std::size_t wanted,
-                         double volumePlaced, double volumeWanted, double openVolume) {
-  // Sequential insertion is quick up to about 0.3.
+[[noreturn]] void refuse(std::size_t placed, std::size_t wanted, double volumePlaced, double volumeWanted,
+                         double openVolume) {
   throw InputError(
-      fmt::format("{}: {} found room for {} of {} grains, a solid fraction of {:.2f} in the {:.4g} m^3 that "
-                  "are open; make the "
-                  "region at least {:.4g} m^3 (random placement is quick up to 0.3) or bring in fewer grains",
-                  context.scene.file, context.name, placed, wanted, volumePlaced / openVolume, openVolume,
-                  volumeWanted / 0.3));
+      fmt::format("found room for {} of {} grains, a solid fraction of {:.2f} in the {:.4g} m^3 that are "
+                  "open; make the region "
+                  "at least {:.4g} m^3 (random placement is quick up to {}) or bring in fewer grains",
+                  placed, wanted, volumePlaced / openVolume, openVolume, volumeWanted / quickSolidFraction,
+                  quickSolidFraction));
 }
 
 } // namespace
@@ -74,7 +73,7 @@ std::vector<GrainSeed> fillRandomly(const FillContext& context) {
   for (const auto& g : grains)
     volumeWanted += volume(g);
   const auto giveUp = [&](std::size_t placed) {
-    refuse(context, placed, grains.size(), volumePlaced, volumeWanted,
+    refuse(placed, grains.size(), volumePlaced, volumeWanted,
            region.volume() * openShare(scene, context.fill));
   };
 

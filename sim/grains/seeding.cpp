@@ -1,5 +1,6 @@
 #include "sim/grains/seeding.h"
 
+#include "sim/base/error.h"
 #include "sim/grains/fills.h"
 #include "sim/grains/mixture.h"
 
@@ -26,6 +27,20 @@ double largestDiameter(const Scene& scene, const std::vector<GrainSeed>& present
   return largest;
 }
 
+std::vector<GrainSeed> place(const FillContext& context) {
+  const std::string& kind = context.fill.how.kind;
+  try {
+    return kind == "random"    ? fillRandomly(context)
+           : kind == "lattice" ? fillLattice(context)
+                               : fillFromList(context);
+  } catch (const InputError& e) {
+    std::vector<std::string> sentences;
+    for (const auto& phrase : e.sentences())
+      sentences.push_back(fmt::format("{}: {} {}", context.scene.file, context.name, phrase));
+    throw InputError(std::move(sentences));
+  }
+}
+
 } // namespace
 
 std::vector<GrainSeed> placeGrains(const Scene& scene, const std::string& stage, std::int64_t firstId,
@@ -39,9 +54,7 @@ std::vector<GrainSeed> placeGrains(const Scene& scene, const std::string& stage,
     const FillSpec& fill = scene.fills[f];
     if (fill.stage != stage || fill.how.kind == "rain") continue;
     const FillContext context{scene, fill, open, placed, firstId, fmt::format("fill.{}", f + 1)};
-    const auto grains = fill.how.kind == "random"    ? fillRandomly(context)
-                        : fill.how.kind == "lattice" ? fillLattice(context)
-                                                     : fillFromList(context);
+    const auto grains = place(context);
     report(log, LogLevel::info,
            fmt::format("{} ({}): {} grains placed", context.name, fill.how.kind, grains.size()));
     firstId += static_cast<std::int64_t>(grains.size());

@@ -1,5 +1,6 @@
 #include "sim/scene/check_fills.h"
 
+#include "sim/base/error.h"
 #include "sim/grains/fill_region.h"
 #include "sim/grains/fills.h"
 #include "sim/grains/mixture.h"
@@ -74,6 +75,26 @@ void checkMixture(const Scene& scene, const FillSpec& fill, const std::string& p
                  fmt::format("has fractions that sum to {}, but they must sum to 1; scale them", sum));
 }
 
+/// Lists and lattices are quick to place: what the run would refuse is refused here, with the line.
+void tryPlacing(const Scene& scene, std::size_t f, FaultList& faults) {
+  const FillSpec& fill = scene.fills[f];
+  double largest = 0;
+  if (fill.how.kind == "list")
+    for (const double d : fill.how.parameters.numbers("diameters"))
+      largest = std::max(largest, d);
+  else
+    largest = Mixture(scene, fill).largest();
+  const OpenSpace open(scene, fill.stage);
+  PlacementGrid placed(scene.domain, largest);
+  const FillContext context{scene, fill, open, placed, 0, pathOf(f)};
+  try {
+    fill.how.kind == "list" ? fillFromList(context) : fillLattice(context);
+  } catch (const InputError& e) {
+    for (const auto& phrase : e.sentences())
+      faults.about(pathOf(f), phrase);
+  }
+}
+
 } // namespace
 
 void checkFills(const Scene& scene, FaultList& faults) {
@@ -144,12 +165,13 @@ void checkSizes(const Scene& scene, FaultList& faults) {
 void checkAmounts(const Scene& scene, FaultList& faults) {
   // Rough: a grain with its neighbours and contacts takes half a kilobyte.
   constexpr double bytesPerGrain = 500, mostGrains = 1e9;
-  // Spheres of one size pack to 0.64 at random and 0.74 at best; random insertion jams at 0.38.
-  constexpr double insertionLimit = 0.38;
   for (std::size_t f = 0; f < scene.fills.size(); ++f) {
     const FillSpec& fill = scene.fills[f];
     const Parameters& p = fill.how.parameters;
-    if (fill.how.kind == "list") continue;
+    if (fill.how.kind == "list") {
+      tryPlacing(scene, f, faults);
+      continue;
+    }
     const Mixture mixture(scene, fill);
     const bool lattice = fill.how.kind == "lattice", random = fill.how.kind == "random";
     const double region =
@@ -168,7 +190,7 @@ void checkAmounts(const Scene& scene, FaultList& faults) {
       count = (p.vector("upper") - p.vector("lower")).prod() / std::pow(p.number("spacing"), 3);
     if (count > mostGrains) {
       const std::string rule = fmt::format(
-          "{:.3g} grains would need about {:.3g} GB of memory; at most {:.0e} are allowed, so bring in fewer",
+          "{:.3g} grains would need about {:.0f} GB of memory; at most {:.0f} are allowed, so bring in fewer",
           count, count * bytesPerGrain / 1e9, mostGrains);
       if (lattice)
         faults.about(key, "asks for too much: " + rule);
@@ -176,6 +198,7 @@ void checkAmounts(const Scene& scene, FaultList& faults) {
         faults.wrong(key, "but " + rule);
       continue;
     }
+    if (lattice) tryPlacing(scene, f, faults);
     if (!random) continue;
     if (count < 0.5) {
       faults.wrong(
@@ -185,18 +208,18 @@ void checkAmounts(const Scene& scene, FaultList& faults) {
     }
     const double open = region * openShare(scene, fill);
     const double share = open > 0 ? count * mixture.meanVolume() / open : 1;
-    if (share > insertionLimit && !p.has("solid_fraction"))
+    if (share > jammedSolidFraction && !p.has("solid_fraction"))
       faults.wrong(
           key,
           fmt::format(
               "but these grains would fill {:.2f} of the {:.4g} m^3 that are open in the region, and random "
               "placement without overlap ends at {}; make the region at least {:.4g} m^3 or bring in fewer",
-              share, open, insertionLimit, count * mixture.meanVolume() / 0.3));
-    else if (p.number("solid_fraction", 0) > insertionLimit)
+              share, open, jammedSolidFraction, count * mixture.meanVolume() / quickSolidFraction));
+    else if (p.number("solid_fraction", 0) > jammedSolidFraction)
       faults.wrong(
           key, fmt::format(
                    "but random placement without overlap ends at {}; ask for less and let the grains settle",
-                   insertionLimit));
+                   jammedSolidFraction));
     else if (open <= 0)
       faults.about(pathOf(f),
                    "has a region in which no point is open to grains; check the walls and the region");

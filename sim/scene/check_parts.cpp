@@ -1,6 +1,7 @@
 #include "sim/scene/check_parts.h"
 
-#include "sim/contact/law_registry.h"
+#include "sim/base/error.h"
+#include "sim/contact/law.h"
 #include "sim/scene/suggest.h"
 #include "sim/walls/wall_registry.h"
 
@@ -29,6 +30,9 @@ bool checkReference(const std::string& key, const std::string& name, const std::
                     const char* section, FaultList& faults) {
   if (name.empty() || faults.has(key)) return true;
   const auto names = namesOf(all);
+  if (std::find(names.begin(), names.end(), "") != names.end())
+    return true; // the one with a faulty name may be meant
+
   if (std::find(names.begin(), names.end(), name) != names.end()) return true;
   faults.wrong(key, fmt::format("but the scene has no [[{}]] '{}'; {}", section, name,
                                 suggestion(name, names, "there are")));
@@ -107,6 +111,31 @@ void checkElasticity(const Scene& scene, const ContactSpec& contact, const std::
   }
 }
 
+/// Laws say themselves when their parameters contradict each other.
+void checkLaw(LawRole role, const Choice& law, const std::string& path, FaultList& faults) {
+  const LawKind* kind = findLaw(role, law.kind);
+  if (!kind || faults.has(path)) return;
+  LawContext context;
+  context.types.push_back({.used = true,
+                           .parameters = law.parameters,
+                           .referenceMass = 1e-6,
+                           .effectiveYoungsModulus = 1e9,
+                           .effectiveShearModulus = 1e9});
+  try {
+    kind->make(context);
+  } catch (const InputError& problem) {
+    faults.about(path, std::string("contradicts itself: ") + problem.what());
+  }
+}
+
+void checkLawsOf(const ContactSpec& contact, const std::string& path, FaultList& faults) {
+  checkLaw(LawRole::normal, contact.normal, path + ".normal", faults);
+  checkLaw(LawRole::tangential, contact.tangential, path + ".tangential", faults);
+  checkLaw(LawRole::rolling, contact.rolling, path + ".rolling", faults);
+  for (std::size_t g = 0; g < contact.gap.size(); ++g)
+    checkLaw(LawRole::gap, contact.gap[g], fmt::format("{}.gap.{}", path, g + 1), faults);
+}
+
 } // namespace
 
 std::string partPath(const char* section, const std::string& name, std::size_t index) {
@@ -169,14 +198,19 @@ void checkContacts(const Scene& scene, FaultList& faults) {
       faults.about(path,
                    "describes a pair of materials that another [[contact]] describes already; remove one");
     checkElasticity(scene, c, path, faults);
+    checkLawsOf(c, path, faults);
   }
   if (!scene.contacts.empty()) checkSameLaws(scene, faults);
 
   std::set<std::string> grains, walls;
+  const auto known = [&](const std::string& name) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [&](const Material& m) { return m.name == name; });
+  };
   for (const auto& s : scene.species)
-    grains.insert(s.material);
+    if (known(s.material)) grains.insert(s.material);
   for (const auto& w : scene.walls)
-    walls.insert(w.material);
+    if (known(w.material)) walls.insert(w.material);
   std::set<Pair> wanted;
   for (const auto& a : grains) {
     for (const auto& b : grains)
@@ -185,7 +219,7 @@ void checkContacts(const Scene& scene, FaultList& faults) {
       wanted.insert(unordered(a, b));
   }
   for (const auto& [a, b] : wanted)
-    if (!a.empty() && !b.empty() && !described.contains({a, b}) && !faults.has("contact"))
+    if (!described.contains({a, b}) && !faults.has("contact"))
       faults.general(fmt::format(
           "the materials '{0}' and '{1}' can meet, but there is no contact between them; add a [[contact]] "
           "with between = [\"{0}\", \"{1}\"]",
@@ -225,7 +259,7 @@ void checkStages(const Scene& scene, FaultList& faults) {
     const bool needsOutlet = stage.untilEmpty || stage.massDischarged || stage.quietTime;
     if (!stage.duration && !stage.settledKineticEnergy && !needsOutlet)
       faults.about(path, "never ends; add an end condition, such as until = { duration = \"1 s\" }");
-    if (needsOutlet && scene.outlets.empty() && !stage.duration)
+    if (needsOutlet && scene.outlets.empty() && !stage.duration && !faults.has("outlet"))
       faults.about(path + ".until",
                    "waits for grains to leave, but the scene has no [[outlet]]; add one or a duration");
     if (stage.duration && stage.settledAfter > *stage.duration)
@@ -253,10 +287,10 @@ void checkTimes(const Scene& scene, FaultList& faults) {
   const auto report = [&](const std::string& rule) { faults.wrong("accuracy.time_step", rule); };
   for (const auto& c : scene.contacts) {
     const double contact = c.normal.parameters.number("collision_time", 0);
-    if (contact > 0 && step > contact / 10)
+    if (contact > 0 && step > contact / 5)
       return report(fmt::format(
-          "but must not be above {:.4g} s, a tenth of the collision time between '{}' and '{}'; lower it",
-          contact / 10, c.first, c.second));
+          "but must not be above {:.4g} s, a fifth of the collision time between '{}' and '{}'; lower it",
+          contact / 5, c.first, c.second));
   }
   for (const auto& s : scene.stages)
     if (s.duration && step > *s.duration)

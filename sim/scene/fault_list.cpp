@@ -46,8 +46,8 @@ void FaultList::about(const std::string& key, const std::string& sentence) {
   add(key, known(key), fmt::format("{} {}", key, sentence));
 }
 
-void FaultList::general(const std::string& sentence) {
-  add("", nullptr, sentence);
+void FaultList::general(const std::string& sentence, const std::string& key) {
+  add(key, nullptr, sentence);
 }
 
 void FaultList::foreign(const std::string& sentence) {

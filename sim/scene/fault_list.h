@@ -20,8 +20,8 @@ public:
   void wrong(const std::string& key, const std::string& problem);
   /// "FILE:LINE: KEY SENTENCE"; the line is that of the nearest table around a key that is not there.
   void about(const std::string& key, const std::string& sentence);
-  /// A fault of the scene as a whole: "FILE: SENTENCE".
-  void general(const std::string& sentence);
+  /// A fault of the scene as a whole, "FILE: SENTENCE"; it counts as one of `key` where that is given.
+  void general(const std::string& sentence, const std::string& key = "");
   /// A finished sentence with its own place (a CSV file, a bad override).
   void foreign(const std::string& sentence);
 

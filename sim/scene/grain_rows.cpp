@@ -64,6 +64,8 @@ void complete(Row& row, const std::vector<Species>& species) {
   const Choice& size = species[static_cast<std::size_t>(it - names.begin())].size;
   if (!row.diameter && size.kind == "single" && size.parameters.has("diameter"))
     row.diameter = size.parameters.number("diameter");
+  const bool sizeIsFaulty = size.kind.empty() || size.kind == "single"; // reported where it stands
+  if (!row.diameter && sizeIsFaulty) row.diameter = 1.0;
   if (!row.diameter)
     throw InputError(fmt::format("lacks its diameter, and species '{}' has more than one size", row.species));
 }
@@ -154,6 +156,7 @@ void assign(Row& row, const Column& column, const std::string& cell) {
   }
   const auto known = std::find_if(columnUnits.begin(), columnUnits.end(),
                                   [&](const auto& c) { return column.name == c.first; });
+  if (column.name == "diameter" && cell.empty()) return; // as the species says
   double value = 0;
   try {
     value = parseQuantity(cell + " " + column.unit, known->second);
@@ -207,7 +210,7 @@ std::vector<Row> csvRows(const std::string& file, const std::vector<Species>& sp
     } catch (const InputError& problem) {
       faults.foreign(fmt::format("{}:{}: {}", file, number, problem.what()));
       ++found;
-      if (columns.empty() || rows.empty()) break; // a wrong heading spoils every line
+      if (columns.empty()) break; // a wrong heading spoils every line
     }
   }
   if (rows.empty() && found == 0) faults.foreign(fmt::format("{}: there is no grain in the file", file));

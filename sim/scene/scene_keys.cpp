@@ -218,7 +218,7 @@ const Keys& accuracyKeys() {
                           .unit = "1",
                           .description = "steps in the shortest collision",
                           .optional = true,
-                          .minimum = 10,
+                          .minimum = 6,
                           .maximum = 10000},
                          positive("time_step", "s", "step, when the scene fixes it"),
                          {.name = "skin",

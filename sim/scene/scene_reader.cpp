@@ -62,7 +62,9 @@ private:
     static const ValueTable none;
     const ValueTable* table = top_.subtable(key);
     if (!table && required) {
-      if (!faults_.has(key)) faults_.general(fmt::format("the table [{}] is missing", key));
+      if (!faults_.has(key))
+        faults_.general(fmt::format("the table [{}] is missing; add it with its keys lower and upper", key),
+                        key);
       return;
     }
     TableReader in(table ? *table : none, key, faults_);
@@ -120,8 +122,8 @@ private:
       sizeIn.reportUnknown();
       if (kind && !faults_.has(path + ".size")) tryToMake(*kind, species.size, path + ".size");
     } else if (!faults_.has(path + ".size")) {
-      faults_.about(
-          path, "lacks the key 'size'; such as size = { distribution = \"single\", diameter = \"3 mm\" }");
+      faults_.about(path, "lacks the key 'size'; write for example size = { distribution = \"single\", "
+                          "diameter = \"3 mm\" }");
     }
     in.reportUnknown();
   }

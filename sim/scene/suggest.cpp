@@ -30,7 +30,7 @@ std::size_t edits(const std::string& a, const std::string& b) {
 
 std::string nearestWord(const std::string& word, const std::vector<std::string>& known) {
   std::string best;
-  std::size_t fewest = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::size_t fewest = (word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3)) + 1;
   for (const auto& candidate : known) {
     const std::size_t n = edits(word, candidate);
     if (n < fewest && n < candidate.size()) {

@@ -124,8 +124,9 @@ public:
   }
 
   [[noreturn]] void mismatch(const Value& value) const {
-    throw InputError(
-        fmt::format("{}, but {} is due, such as {}", typeName(value), due(spec_), example(spec_)));
+    const bool anyText = spec_.type == ParameterType::text && spec_.choices.empty();
+    throw InputError(fmt::format("{}, but {} is due{}", typeName(value), due(spec_),
+                                 anyText ? "" : ", such as " + example(spec_)));
   }
 
 private:
@@ -248,7 +249,7 @@ void TableReader::reportUnknown() {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
     faults_.note(pathOf(entry.key), entry.value);
     faults_.about(pathOf(entry.key),
-                  "is not a key of a scene here; " + suggestion(entry.key, known_, "known are"));
+                  "is not a known key here; " + suggestion(entry.key, known_, "known are"));
   }
 }
 
