@@ -74,10 +74,10 @@ std::vector<GrainSeed> fillLattice(const FillContext& context) {
     g.position = context.open.wrapped(g.position);
     if (context.placed.overlap(g.position, g.radius) > rounding)
       throw InputError(
-          fmt::format("{}: {} makes grains overlap: a spacing of {:.4g} m with a jitter of {:.4g} m is too "
-                      "tight for diameters up to {:.4g} m, or the region meets itself or another filling; "
+          fmt::format("makes grains overlap: a spacing of {:.4g} m with a jitter of {:.4g} m is too tight "
+                      "for diameters up to {:.4g} m, or the region meets itself or another filling; "
                       "widen the spacing or change the region",
-                      scene.file, context.name, p.number("spacing"), jitter, mixture.largest()));
+                      p.number("spacing"), jitter, mixture.largest()));
     context.placed.add(g.position, g.radius);
     setMotion(g, scene.seed, p);
   }

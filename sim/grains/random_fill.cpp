@@ -81,9 +81,8 @@ std::vector<GrainSeed> fillRandomly(const FillContext& context) {
   for (std::size_t k = 0; k < order.size(); ++k) {
     GrainSeed& g = grains[order[k]];
     if (!region.holds(g.radius))
-      throw InputError(
-          fmt::format("{}: {} has a region too small for a grain of diameter {:.4g} m; enlarge the region",
-                      scene.file, context.name, 2 * g.radius));
+      throw InputError(fmt::format(
+          "has a region too small for a grain of diameter {:.4g} m; enlarge the region", 2 * g.radius));
     RandomStream random(scene.seed, RandomPurpose::grainPosition, static_cast<std::uint64_t>(g.id));
     for (std::int64_t tries = 0;; ++tries) {
       if (tries == mostTriesOfOne || budget-- == 0) giveUp(k);

@@ -188,11 +188,13 @@ std::vector<Row> csvRows(const std::string& file, const std::vector<Species>& sp
     try {
       const auto parts = cells(line);
       if (columns.empty()) {
+        std::vector<Column> headings;
         for (const auto& heading : parts)
-          columns.push_back(parseHeading(heading));
+          headings.push_back(parseHeading(heading));
         for (const char* axis : {"x", "y", "z"})
-          if (std::none_of(columns.begin(), columns.end(), [&](const Column& c) { return c.name == axis; }))
+          if (std::none_of(headings.begin(), headings.end(), [&](const Column& c) { return c.name == axis; }))
             throw InputError(fmt::format("the column '{}' is missing", axis));
+        columns = std::move(headings);
         continue;
       }
       if (parts.size() != columns.size())
