@@ -13,6 +13,7 @@ using Action = std::function<int()>;
 // Each of these lives in <name>_command.cpp and is called once from main.cpp.
 void addRun(CLI::App& app, Action& action);
 void addConvert(CLI::App& app, Action& action);
+void addExplain(CLI::App& app, Action& action);
 
 #ifdef SANDGLASS_VIS
 void addRender(CLI::App& app, Action& action);

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   cli::Action action;
   cli::addRun(app, action);
   cli::addConvert(app, action);
+  cli::addExplain(app, action);
 #ifdef SANDGLASS_VIS
   cli::addRender(app, action);
 #endif
