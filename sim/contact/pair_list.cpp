@@ -67,10 +67,17 @@ void PairList::build(GrainStore& grains, double margin, Parallel& parallel,
   const std::size_t n = grains.size();
   if (periodic_) wrap(grains);
 
+  // Grains that go must not shape the grid: a list built anew from the positions of those that stay is the
+  // same.
+  const auto stays = [&](std::size_t i) { return drop.empty() || !drop[i]; };
+  std::size_t staying = 0;
   Cells cells;
   double largest = 0.0;
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-  for (const Quad& q : grains.place) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!stays(i)) continue;
+    const Quad& q = grains.place[i];
+    ++staying;
     largest = std::max(largest, q.w);
     low = low.cwiseMin(q.vec());
     high = high.cwiseMax(q.vec());
@@ -81,8 +88,8 @@ void PairList::build(GrainStore& grains, double margin, Parallel& parallel,
     double total = 1.0;
     for (int k = 0; k < 3; ++k) {
       cells.periodic[k] = domain_.periodic[k];
-      cells.lower[k] = domain_.periodic[k] ? domain_.lower[k] : (n ? low[k] : 0.0);
-      const double length = domain_.periodic[k] ? extent_[k] : (n ? high[k] - low[k] : 0.0);
+      cells.lower[k] = domain_.periodic[k] ? domain_.lower[k] : (staying ? low[k] : 0.0);
+      const double length = domain_.periodic[k] ? extent_[k] : (staying ? high[k] - low[k] : 0.0);
       cells.count[k] = static_cast<int>(std::clamp(std::floor(length / cell), 1.0, 1e6));
       cells.width[k] = std::max(length / cells.count[k], 1e-300);
       cells.reach[k] = !domain_.periodic[k] && cells.count[k] == 1
@@ -90,13 +97,12 @@ void PairList::build(GrainStore& grains, double margin, Parallel& parallel,
                            : static_cast<int>(std::ceil(cutoff / cells.width[k]));
       total *= cells.count[k];
     }
-    if (total <= 4.0 * static_cast<double>(n) + 1000.0 || attempt > 60) break;
+    if (total <= 4.0 * static_cast<double>(staying) + 1000.0 || attempt > 60) break;
     cell *= 1.26;
   }
 
   // Counting sort by cell; equal cells keep their order.
   const int cellCount = cells.count[0] * cells.count[1] * cells.count[2];
-  const auto stays = [&](std::size_t i) { return drop.empty() || !drop[i]; };
   std::vector<std::int32_t> cellOf(n), cursor(cellCount + 1, 0);
   for (std::size_t i = 0; i < n; ++i)
     if (stays(i)) ++cursor[(cellOf[i] = cells.of(grains.place[i])) + 1];

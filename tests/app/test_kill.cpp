@@ -1,0 +1,226 @@
+// A run killed at any moment loses the time since its last checkpoint and nothing else: kill -9 a hundred
+// times at random moments, each time everything that is closed opens, and the resumed run ends with the bits
+// of one that nobody disturbed.
+
+#include "sim/base/random.h"
+#include "sim/io/run_folder.h"
+#include "sim/io/series.h"
+#include "sim/run/checkpoint_store.h"
+#include "tests/sim/frame_equality.h"
+#include "tests/sim/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <fstream>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <thread>
+
+using namespace sandglass;
+using namespace sandglass::test;
+
+extern char** environ;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A slot hopper in small, with all that a checkpoint must carry: friction, rolling, rain, an opened gate.
+constexpr const char* sceneText = R"(
+gravity = ["0", "-9.81 m/s^2", "0"]
+
+[domain]
+lower = ["-2 cm", "-2 cm", "-0.4 cm"]
+upper = ["2 cm", "8 cm", "0.4 cm"]
+periodic = ["z"]
+
+[[material]]
+name = "glass"
+density = "2500 kg/m^3"
+
+[[contact]]
+between = ["glass", "glass"]
+normal = { law = "linear", collision_time = "5e-4 s", restitution = 0.9 }
+tangential = { law = "spring", friction = 0.3, stiffness_ratio = 0.2857 }
+rolling = { law = "elastic_plastic", length = "0.1 mm" }
+
+[[species]]
+name = "bead"
+material = "glass"
+size = { distribution = "uniform", smallest = "2 mm", largest = "2.6 mm" }
+
+[[wall]]
+name = "hopper"
+kind = "wedge"
+material = "glass"
+outlet = "1.2 cm"
+width = "3.5 cm"
+half_angle = "45 deg"
+height = "8 cm"
+
+[[wall]]
+name = "gate"
+kind = "rectangle"
+material = "glass"
+centre = ["0", "0", "0"]
+normal = [0, 1, 0]
+along = [1, 0, 0]
+length = "1.4 cm"
+breadth = "2 cm"
+
+[[outlet]]
+name = "below"
+point = ["0", "-1 cm", "0"]
+normal = [0, -1, 0]
+
+[[fill]]
+kind = "random"
+species = "bead"
+region = "box"
+lower = ["-1.7 cm", "0.2 cm", "-0.4 cm"]
+upper = ["1.7 cm", "5 cm", "0.4 cm"]
+number = 250
+
+[[fill]]
+kind = "rain"
+stage = "discharge"
+species = "bead"
+lower = ["-1.5 cm", "6 cm", "-0.4 cm"]
+upper = ["1.5 cm", "7 cm", "0.4 cm"]
+rate = "1500 1/s"
+number = 100
+
+[[stage]]
+name = "settle"
+until = { duration = "40 ms" }
+
+[[stage]]
+name = "discharge"
+remove_walls = ["gate"]
+until = { duration = "100 ms" }
+
+[[probe]]
+name = "energy"
+kind = "energies"
+interval = "2 ms"
+
+[[probe]]
+name = "outflow"
+kind = "flow_rate"
+point = ["0", "-0.3 cm", "0"]
+normal = [0, -1, 0]
+interval = "3 ms"
+
+[output]
+frame_interval = "7 ms"
+checkpoint_interval = "9 ms"
+quantities = ["velocity", "spin"]
+)";
+
+/// Starts `sandglass run` and returns its process id.
+pid_t start(const fs::path& scene, const fs::path& folder, int threads) {
+  const std::vector<std::string> words{
+      SANDGLASS_PROGRAM, "run",      scene.string(), "-o",
+      folder.string(),   "--resume", "--threads",    std::to_string(threads)};
+  std::vector<char*> arguments;
+  for (const auto& word : words)
+    arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int fault = posix_spawn(&child, SANDGLASS_PROGRAM, &quiet, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&quiet);
+  REQUIRE(fault == 0);
+  return child;
+}
+
+std::string contentOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<FramePtr> framesOf(const fs::path& folder) {
+  std::vector<FramePtr> frames;
+  if (!fs::exists(folder / "frames")) return frames;
+  const auto source = openFrames(folder);
+  for (std::size_t i = 0; i < source->size(); ++i)
+    frames.push_back(source->load(i));
+  return frames;
+}
+
+void requireSame(const std::vector<FramePtr>& whole, const fs::path& folder, const fs::path& wholeFolder) {
+  const auto frames = framesOf(folder);
+  REQUIRE(frames.size() == whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    requireEqual(*frames[i], *whole[i]);
+  REQUIRE(contentOf(folder / "series.csv") == contentOf(wholeFolder / "series.csv"));
+}
+
+} // namespace
+
+TEST_CASE("A run killed at any moment goes on with the same bits", "[app]") {
+  const TemporaryFolder folder("kill");
+  std::ofstream(folder / "scene.toml") << sceneText;
+
+  const auto began = std::chrono::steady_clock::now();
+  int status = 0;
+  waitpid(start(folder / "scene.toml", folder / "whole", 1), &status, 0);
+  REQUIRE(status == 0);
+  const std::chrono::duration<double> wholeTime = std::chrono::steady_clock::now() - began;
+  const auto whole = framesOf(folder / "whole");
+  REQUIRE(whole.size() == 21);                                // 140 ms each 7 ms, both ends
+  REQUIRE(whole.back()->size() < whole.front()->size() + 90); // it rained, and some have left
+
+  int kills = 0, finished = 0, withCheckpoint = 0;
+  for (std::uint64_t trial = 0; kills < 100; ++trial) {
+    RandomStream random(2024, RandomPurpose::test, trial);
+    const pid_t child = start(folder / "scene.toml", folder / "killed", 1 + static_cast<int>(trial % 3));
+    std::this_thread::sleep_for(wholeTime * random.uniform(0.02, 0.5));
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+    INFO("trial " << trial);
+    const auto frames = framesOf(folder / "killed"); // every closed segment opens
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      requireEqual(*frames[i], *whole.at(i));
+    const auto checkpoints = checkpointFiles(folder / "killed");
+    for (const auto& file : checkpoints)
+      REQUIRE_FALSE(readCheckpoint(file).empty());
+    CHECK((frames.size() <= 1 || !checkpoints.empty())); // the first frame comes before the first checkpoint
+    if (fs::exists(folder / "killed" / "series.csv")) readSeries(folder / "killed" / "series.csv");
+    if (WIFSIGNALED(status)) {
+      ++kills;
+      withCheckpoint += checkpoints.empty() ? 0 : 1;
+      continue;
+    }
+    REQUIRE(WEXITSTATUS(status) == 0);
+    requireSame(whole, folder / "killed", folder / "whole");
+    fs::remove_all(folder / "killed");
+    ++finished;
+  }
+  waitpid(start(folder / "scene.toml", folder / "killed", 2), &status, 0);
+  REQUIRE(status == 0);
+  requireSame(whole, folder / "killed", folder / "whole");
+  CHECK(withCheckpoint > 50); // most kills fell into the run, not into its first moments
+  INFO("kills " << kills << ", runs that ended in between " << finished);
+  CHECK(finished > 0);
+}
+
+TEST_CASE("SIGTERM ends a run with a checkpoint and exit code 1", "[app]") {
+  const TemporaryFolder folder("term");
+  std::ofstream(folder / "scene.toml") << sceneText;
+  const pid_t child = start(folder / "scene.toml", folder / "run", 1);
+  for (int i = 0; i < 5000 && checkpointFiles(folder / "run").size() < 2; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGTERM);
+  int status = 0;
+  waitpid(child, &status, 0);
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 1);
+  REQUIRE_FALSE(checkpointFiles(folder / "run").empty());
+  CHECK(framesOf(folder / "run").size() < 21);
+}
