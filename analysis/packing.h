@@ -15,7 +15,7 @@ double sphereSlabVolume(double radius, double h, double low, double high);
 
 struct PackingOptions {
   Vec3 up = Vec3::UnitZ(); ///< minus gravity
-  double slabHeight = 0;   ///< [m]; 0: half a mean diameter. Adjusted to divide the container's height
+  double slabHeight = 0;   ///< [m]; 0: half a mean diameter. Adjusted to divide a periodic height
   RegionOptions region;    ///< limits and gates; clearance and surface are set by the analysis
   double diameter = 0;     ///< [m]; 0: twice the mean radius of the first Frame
   std::uint64_t seed = 1;
@@ -37,9 +37,11 @@ public:
   Curve result() const;
 
 private:
+  void extend(const Frame& frame, double top);
+
   PackingOptions options_;
   double from_ = 0, width_ = 0;
-  std::vector<Volume> container_;          ///< per slab
+  std::vector<Volume> container_;          ///< per slab, as high as any Frame's grains reach
   std::vector<std::vector<double>> solid_; ///< per Frame and slab [m^3]
   std::vector<double> bulk_;               ///< per Frame; NaN when the bed is too shallow
   std::string regionText_;
