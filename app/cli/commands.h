@@ -14,6 +14,7 @@ using Action = std::function<int()>;
 void addRun(CLI::App& app, Action& action);
 void addConvert(CLI::App& app, Action& action);
 void addExplain(CLI::App& app, Action& action);
+void addAnalyze(CLI::App& app, Action& action);
 
 #ifdef SANDGLASS_VIS
 void addRender(CLI::App& app, Action& action);

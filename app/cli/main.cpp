@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   cli::addRun(app, action);
   cli::addConvert(app, action);
   cli::addExplain(app, action);
+  cli::addAnalyze(app, action);
 #ifdef SANDGLASS_VIS
   cli::addRender(app, action);
 #endif

@@ -1,0 +1,27 @@
+#pragma once
+// What analyses want to know about a run and a Frame does not say: taken from the run's scene.
+
+#include "analysis/beverloo.h"
+#include "sim/scene/scene.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sandglass::analysis {
+
+struct RunFacts {
+  std::optional<Vec3> up;           ///< minus the direction of gravity; absent without gravity
+  double gravity = 0;               ///< [m/s^2]
+  std::vector<std::string> gates;   ///< walls that a stage removes
+  std::optional<OutletShape> shape; ///< of the outlet of a wedge or cone hopper
+  double outlet = 0;                ///< its width or diameter [m]
+  std::optional<double> slotDepth;  ///< [m], of a slot along a periodic axis
+  double grainDensity = 0;          ///< [kg/m^3], of the first species' material; 0 when unknown
+  std::string flowProbe;            ///< name of the first flow_rate probe, or empty
+  std::string energyProbe;          ///< name of the first energies probe, or empty
+};
+
+RunFacts factsOf(const Scene& scene);
+
+} // namespace sandglass::analysis

@@ -1,0 +1,26 @@
+#pragma once
+// From the probes of a run, or from its frames, to what the analyses of time series take.
+
+#include "analysis/discharge.h"
+#include "analysis/result.h"
+#include "sim/io/run_folder.h"
+#include "sim/io/series.h"
+
+#include <map>
+#include <string>
+
+namespace sandglass::analysis {
+
+using SeriesColumns = std::map<std::string, SeriesColumn>;
+
+/// Mass through the plane of a flow_rate probe. Throws InputError when the probe is not among the columns.
+DischargeData dischargeOf(const SeriesColumns& columns, const std::string& probe, const std::string& source);
+
+/// Mass gone from the frames since they held most. Throws InputError when they have no masses.
+DischargeData dischargeOf(const FrameSource& frames);
+
+/// The energies that an energies probe saw, one line each. Throws InputError when it is not among the
+/// columns.
+Curve energyCurve(const SeriesColumns& columns, const std::string& probe, const std::string& source);
+
+} // namespace sandglass::analysis

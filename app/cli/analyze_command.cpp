@@ -1,0 +1,341 @@
+// sandglass analyze: runs and frame files to curves and numbers.
+
+#include "analysis/beverloo.h"
+#include "analysis/discharge.h"
+#include "analysis/grain_sizes.h"
+#include "analysis/packing.h"
+#include "analysis/pair_correlation.h"
+#include "analysis/run_facts.h"
+#include "analysis/series_data.h"
+#include "app/cli/analyze_options.h"
+#include "app/cli/commands.h"
+#include "app/cli/console.h"
+#include "app/cli/result_files.h"
+#include "sim/base/error.h"
+#include "sim/io/frame_segment.h"
+#include "sim/io/segment_names.h"
+#include "sim/scene/units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace sandglass::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace analysis;
+
+/// One run or file with what its scene says.
+struct Source {
+  fs::path path;
+  std::string prefix; ///< of its result files
+  std::unique_ptr<FrameSource> frames;
+  RunFacts facts;
+};
+
+std::string sceneTextOf(const fs::path& path) {
+  if (!fs::is_directory(path)) return SegmentReader(path).sceneText();
+  const auto segments = segmentFiles(path / "frames");
+  return segments.empty() ? "" : SegmentReader(segments.front()).sceneText();
+}
+
+Source openSource(const std::string& text, bool several) {
+  Source source;
+  source.path = text;
+  source.frames = openFrames(text);
+  if (source.frames->size() == 0) throw InputError(fmt::format("{}: there are no frames yet", text));
+  if (const std::string scene = sceneTextOf(source.path); !scene.empty())
+    source.facts = factsOf(parseScene(scene, text + " (scene inside)"));
+  fs::path name = source.path;
+  if (!name.has_filename()) name = name.parent_path(); // "run/"
+  if (several) source.prefix = name.stem().string() + "_";
+  return source;
+}
+
+bool gatesClosed(const Frame& frame) {
+  return std::all_of(frame.walls.begin(), frame.walls.end(), [](const FrameWall& w) { return w.active; });
+}
+
+/// The frames asked for; by default the last one with all gates closed (the settled bed), or the last of all.
+std::pair<std::size_t, std::size_t> framesFor(const Source& source, const AnalyzeOptions& options) {
+  const std::size_t count = source.frames->size();
+  if (!options.frames.empty()) return frameRange(options.frames, count, source.path.string());
+  // Gates open once, so closed frames come first.
+  std::size_t closed = 0, beyond = count;
+  while (closed + 1 < beyond) {
+    const std::size_t middle = (closed + beyond) / 2;
+    (gatesClosed(*source.frames->load(middle)) ? closed : beyond) = middle;
+  }
+  return {closed, closed};
+}
+
+RegionOptions regionFor(const Source& source, const AnalyzeOptions& options, double diameter) {
+  RegionOptions region;
+  region.up = source.facts.up;
+  region.gates = source.facts.gates;
+  if (!options.margin.empty()) region.surfaceMargin = lengthOption("--margin", options.margin, diameter);
+  addLimits(options.limits, region);
+  return region;
+}
+
+void stamp(Curve& curve, const Source& source, const Frame& frame) {
+  for (const auto& [key, value] : frame.provenance)
+    curve.provenance[key] = value;
+  curve.provenance["source"] = source.path.string();
+}
+
+double diameterFor(const AnalyzeOptions& options, const Frame& frame) {
+  return options.diameter.empty() ? meanDiameter(frame) : lengthOption("--diameter", options.diameter, 0);
+}
+
+void analyzeGr(const Source& source, const AnalyzeOptions& options, ResultFiles& files) {
+  const auto [from, to] = framesFor(source, options);
+  const FramePtr first = source.frames->load(from);
+  PairCorrelationOptions o;
+  o.diameter = diameterFor(options, *first);
+  o.estimator = parseEstimator(options.estimator);
+  o.rMax = lengthOption("--r-max", options.rMax, o.diameter);
+  o.bins = options.bins;
+  o.region = regionFor(source, options, o.diameter);
+  PairCorrelation correlation(o);
+  ProgressBar bar("g(r)");
+  for (std::size_t f = from; f <= to; ++f) {
+    correlation.add(*source.frames->load(f));
+    bar.update(static_cast<double>(f - from + 1) / static_cast<double>(to - from + 1), -1,
+               fmt::format("frame {}", f));
+  }
+  bar.finish();
+  auto result = correlation.result();
+  for (Curve* c : {&result.g, &result.coordination}) {
+    c->provenance["frame_indices"] = fmt::format("{}:{}", from, to);
+    stamp(*c, source, *first);
+    files.write(*c, source.prefix);
+  }
+  const auto& n = result.g.numbers;
+  const auto peak = std::max_element(result.g.series[0].y.begin(), result.g.series[0].y.end()) -
+                    result.g.series[0].y.begin();
+  fmt::print(
+      "{}g(r) ({}, {} frame{} from {:.4g} s, {:.0f} reference grains): highest {:.3g} +- {:.2g} at {:.3g} d",
+      source.prefix, options.estimator, result.g.frames, result.g.frames == 1 ? "" : "s", first->time,
+      n.at("references"), result.g.series[0].y[peak], result.g.series[0].error[peak],
+      result.g.series[0].x[peak]);
+  if (n.contains("first_minimum"))
+    fmt::print("; first minimum at {:.3g} d, {:.3g} neighbours within\n", n.at("first_minimum"),
+               n.at("coordination_first_shell"));
+  else
+    fmt::print("; no first minimum\n");
+}
+
+void analyzePacking(const Source& source, const AnalyzeOptions& options, ResultFiles& files) {
+  if (!source.facts.up)
+    throw InputError(fmt::format("{}: without gravity there is no height, so no packing fraction by height",
+                                 source.path.string()));
+  const auto [from, to] = framesFor(source, options);
+  const FramePtr first = source.frames->load(from);
+  PackingOptions o;
+  o.up = *source.facts.up;
+  o.diameter = diameterFor(options, *first);
+  o.region = regionFor(source, options, o.diameter);
+  PackingProfile profile(o);
+  for (std::size_t f = from; f <= to; ++f)
+    profile.add(*source.frames->load(f));
+  Curve curve = profile.result();
+  curve.provenance["frame_indices"] = fmt::format("{}:{}", from, to);
+  stamp(curve, source, *first);
+  files.write(curve, source.prefix);
+  if (curve.numbers.contains("packing_bulk"))
+    fmt::print("{}packing fraction of the bulk: {:.4f} +- {:.1g} ({} frame{} from {:.4g} s)\n", source.prefix,
+               curve.numbers.at("packing_bulk"), curve.numbers.at("packing_bulk_error"), curve.frames,
+               curve.frames == 1 ? "" : "s", first->time);
+  else
+    fmt::print("{}packing fraction: the bed is too shallow for a bulk value\n", source.prefix);
+}
+
+/// From the flow_rate probe where there is one, else from the masses of the frames.
+std::pair<DischargeFit, Curve> dischargeFor(const Source& source, const AnalyzeOptions& options) {
+  const fs::path series = source.path / "series.csv";
+  const std::string probe = options.probe.empty() ? source.facts.flowProbe : options.probe;
+  DischargeData data;
+  if (!probe.empty() && fs::exists(series))
+    data = dischargeOf(readSeries(series), probe, series.string());
+  else if (!options.probe.empty())
+    throw InputError(
+        fmt::format("{}: there is no series.csv with the probe '{}'", source.path.string(), probe));
+  else
+    data = dischargeOf(*source.frames);
+  DischargeOptions o;
+  if (!options.shares.empty()) o.shares = shareRange(options.shares);
+  o.depth =
+      !options.depth.empty() ? lengthOption("--depth", options.depth, 0) : source.facts.slotDepth.value_or(0);
+  const DischargeFit fit = fitDischarge(data, o);
+  return {fit, dischargeCurve(data, fit, o)};
+}
+
+double flowingDensity(const Source& source, const AnalyzeOptions& options) {
+  if (!options.flowingDensity.empty()) return parseQuantity(options.flowingDensity, "kg/m^3");
+  if (!(source.facts.grainDensity > 0))
+    throw InputError(fmt::format(
+        "{}: the density of the grains is unknown, which Beverloo's law needs: give --flowing-density",
+        source.path.string()));
+  return 0.59 * source.facts.grainDensity;
+}
+
+/// The law beside one run's rate, per depth for a slot.
+void compareWithBeverloo(const Source& source, const AnalyzeOptions& options, Curve& curve) {
+  if (!source.facts.shape || !(source.facts.gravity > 0)) return;
+  const double d = diameterFor(options, *source.frames->load(0)), rho = flowingDensity(source, options);
+  const bool slot = *source.facts.shape == OutletShape::slot;
+  if (slot && !curve.numbers.contains("depth")) return;
+  const double depth = slot ? curve.numbers.at("depth") : 1;
+  const double law = slot ? slotRate(rho, source.facts.gravity, depth, source.facts.outlet, d, 1.5)
+                          : circularRate(rho, source.facts.gravity, source.facts.outlet, d);
+  curve.numbers["beverloo_rate"] = law;
+  curve.numbers["beverloo_ratio"] = curve.numbers.at("rate") / law;
+  fmt::print("{}  Beverloo's law (k = 1.5, C = {}, flowing density {:.5g} kg/m^3): {:.4g} kg/s; the run has "
+             "{:.3f} of it\n",
+             source.prefix, slot ? 1.03 : 0.58, rho, law, curve.numbers.at("beverloo_ratio"));
+}
+
+void analyzeDischarge(const Source& source, const AnalyzeOptions& options, ResultFiles& files) {
+  auto [fit, curve] = dischargeFor(source, options);
+  fmt::print("{}discharge rate: {:.5g} +- {:.2g} kg/s (95 %), from {:.4g} s to {:.4g} s", source.prefix,
+             fit.rate, fit.halfWidth, fit.startTime, fit.endTime);
+  if (curve.numbers.contains("depth")) {
+    const double depth = curve.numbers.at("depth");
+    // 1 kg/(m s) is 10 g/(cm s).
+    fmt::print("; per depth {:.5g} +- {:.2g} kg/(m s) = {:.4g} +- {:.2g} g/(cm s)", fit.rate / depth,
+               fit.halfWidth / depth, 10 * fit.rate / depth, 10 * fit.halfWidth / depth);
+  }
+  fmt::print("\n");
+  compareWithBeverloo(source, options, curve);
+  stamp(curve, source, *source.frames->load(0));
+  files.write(curve, source.prefix);
+}
+
+void analyzeEnergies(const Source& source, const AnalyzeOptions&, ResultFiles& files) {
+  const fs::path series = source.path / "series.csv";
+  if (source.facts.energyProbe.empty() || !fs::exists(series))
+    throw InputError(
+        fmt::format("{}: the run has no energies probe: add one to its scene", source.path.string()));
+  Curve curve = energyCurve(readSeries(series), source.facts.energyProbe, series.string());
+  stamp(curve, source, *source.frames->load(0));
+  files.write(curve, source.prefix);
+  fmt::print("{}energies: {} samples of {} kinds\n", source.prefix, curve.series[0].x.size(),
+             curve.series.size());
+}
+
+void analyzeBeverloo(const std::vector<Source>& sources, const AnalyzeOptions& options, ResultFiles& files) {
+  std::vector<OutletRate> points;
+  for (const auto& source : sources) {
+    if (!source.facts.shape || source.facts.shape != sources[0].facts.shape)
+      throw InputError(
+          fmt::format("{}: Beverloo's fit needs runs that all have a wedge or all a cone_hopper wall",
+                      source.path.string()));
+    const auto [fit, curve] = dischargeFor(source, options);
+    const bool slot = *source.facts.shape == OutletShape::slot;
+    if (slot && !curve.numbers.contains("depth"))
+      throw InputError(
+          fmt::format("{}: the depth of the slot is unknown, since it is not periodic: give --depth",
+                      source.path.string()));
+    const double depth = slot ? curve.numbers.at("depth") : 1;
+    points.push_back({source.facts.outlet, fit.rate / depth, fit.standardError / depth});
+  }
+  const Source& first = sources[0];
+  const FramePtr frame = first.frames->load(0);
+  const double d = diameterFor(options, *frame), rho = flowingDensity(first, options);
+  const BeverlooFit fit = fitBeverloo(points, *first.facts.shape, d, rho, first.facts.gravity);
+  Curve curve = beverlooCurve(points, fit, *first.facts.shape, d, rho, first.facts.gravity);
+  stamp(curve, first, *frame);
+  curve.provenance.erase("source");
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    curve.provenance[fmt::format("source_{}", i + 1)] = sources[i].path.string();
+  files.write(curve);
+  fmt::print("Beverloo's law from {} runs: k = {:.3g} +- {:.2g}, C = {:.4g} +- {:.2g}, R^2 = {:.5f}\n",
+             points.size(), fit.k, fit.kError, fit.c, fit.cError, fit.r2);
+}
+
+int analyze(AnalyzeOptions options) {
+  const bool chosen =
+      options.gr || options.packing || options.discharge || options.energies || options.beverloo;
+  if (!chosen) options.all = true;
+  std::vector<Source> sources;
+  for (const auto& text : options.sources)
+    sources.push_back(openSource(text, options.sources.size() > 1));
+  ResultFiles files(options.folder, options.csvOnly);
+
+  // What was asked for by name is an error when it cannot be had; what --all tries is left out with the
+  // reason.
+  const auto attempt = [&](bool wanted, const char* name, const std::string& prefix, auto&& work) {
+    if (!wanted && !options.all) return;
+    try {
+      work();
+    } catch (const InputError& e) {
+      if (wanted) throw;
+      fmt::print("{}{} left out: {}\n", prefix, name, e.what());
+    }
+  };
+  for (const auto& source : sources) {
+    attempt(options.discharge, "discharge", source.prefix, [&] { analyzeDischarge(source, options, files); });
+    attempt(options.energies, "energies", source.prefix, [&] { analyzeEnergies(source, options, files); });
+    attempt(options.packing, "packing", source.prefix, [&] { analyzePacking(source, options, files); });
+    attempt(options.gr, "g(r)", source.prefix, [&] { analyzeGr(source, options, files); });
+  }
+  if (options.beverloo || sources.size() > 1)
+    attempt(options.beverloo, "Beverloo's fit", "", [&] { analyzeBeverloo(sources, options, files); });
+  fmt::print("results in {}\n", options.folder);
+  return 0;
+}
+
+} // namespace
+
+void addAnalyze(CLI::App& app, Action& action) {
+  auto options = std::make_shared<AnalyzeOptions>();
+  AnalyzeOptions& o = *options;
+  CLI::App* command =
+      app.add_subcommand("analyze", "Curves and numbers from runs or frame files: CSV, JSON, charts");
+  command->add_option("source", o.sources, "run folders or .vtkhdf files")->required()->type_name("RUN|FILE");
+  command->add_option("-o,--output", o.folder, "folder for the results")->required()->type_name("DIR");
+  command->add_flag("--gr", o.gr, "pair correlation g(r)");
+  command->add_flag("--packing", o.packing, "packing fraction by height");
+  command->add_flag("--discharge", o.discharge, "mass discharged against time and its rate");
+  command->add_flag("--energies", o.energies, "energies against time");
+  command->add_flag("--beverloo", o.beverloo, "Beverloo's law through the rates of several runs");
+  command->add_flag("--all", o.all, "everything that the input allows (the default)");
+  command->add_option("--r-max", o.rMax, "largest distance of g(r): 5d or \"12 mm\"")
+      ->capture_default_str()
+      ->type_name("LENGTH");
+  command->add_option("--bins", o.bins, "bins of g(r)")->capture_default_str()->check(CLI::Range(1, 1000000));
+  command->add_option("--estimator", o.estimator, "E0 (none), E1 (guard zone) or E3 (local shell volume)")
+      ->capture_default_str();
+  command
+      ->add_option("--frames", o.frames,
+                   "indices for g(r) and packing, both ends used: 10:20, 10:, :, 10 (default: the last frame "
+                   "before a gate opens, or the last)")
+      ->type_name("A:B");
+  command->add_option("--margin", o.margin, "distance of g(r) from the free surface (default 2d)")
+      ->type_name("LENGTH");
+  command->add_option("--limit", o.limits, "side to keep, such as \"y<5cm\"; may be repeated")
+      ->type_name("PLANE")
+      ->allow_extra_args(false);
+  command->add_option("--diameter", o.diameter, "grain diameter, where frames have no radii")
+      ->type_name("LENGTH");
+  command
+      ->add_option("--range", o.shares,
+                   "fit the discharge between these shares of the mass, 0.1:0.5 (default: the even range)")
+      ->type_name("A:B");
+  command->add_option("--depth", o.depth, "depth of a slot, for the rate per depth (default: its period)")
+      ->type_name("LENGTH");
+  command->add_option("--probe", o.probe, "flow_rate probe of the discharge (default: the first)")
+      ->type_name("NAME");
+  command
+      ->add_option("--flowing-density", o.flowingDensity,
+                   "for Beverloo's law (default: 0.59 of the grains' density)")
+      ->type_name("DENSITY");
+  command->add_flag("--csv-only", o.csvOnly, "no JSON, no charts");
+  command->callback([options, &action] { action = [options] { return analyze(*options); }; });
+}
+
+} // namespace sandglass::cli

@@ -1,0 +1,37 @@
+#pragma once
+// What `sandglass analyze` is asked for, and the small languages of its options.
+
+#include "analysis/pair_correlation.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sandglass::cli {
+
+struct AnalyzeOptions {
+  std::vector<std::string> sources;
+  std::string folder;
+  bool gr = false, packing = false, discharge = false, energies = false, beverloo = false, all = false;
+  bool csvOnly = false;
+  std::string rMax = "5d", estimator = "E3", frames, diameter, margin, shares, depth, probe, flowingDensity;
+  std::vector<std::string> limits;
+  int bins = 100;
+};
+
+/// "5d" in grain diameters, "12 mm" or "0.012" in metres. Throws InputError naming the option.
+double lengthOption(const std::string& option, const std::string& text, double diameter);
+
+/// "y>1cm", "x<0": limits laid into the region. Throws InputError.
+void addLimits(const std::vector<std::string>& limits, analysis::RegionOptions& region);
+
+/// "A:B", "A:", ":B", "A", ":": first and last index, both used. Throws InputError when none is left.
+std::pair<std::size_t, std::size_t> frameRange(const std::string& text, std::size_t count,
+                                               const std::string& source);
+
+/// "0.1:0.5". Throws InputError.
+std::pair<double, double> shareRange(const std::string& text);
+
+} // namespace sandglass::cli
