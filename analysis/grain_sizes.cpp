@@ -5,13 +5,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sandglass::analysis {
 
 double meanDiameter(const Frame& frame) {
   if (!frame.scalars.contains(quantity::radius) || frame.size() == 0)
     throw InputError(fmt::format(
         "the frame at {:.6g} s has no grain radii, which this analysis needs: give --diameter", frame.time));
-  return 2 * mean(frame.scalar(quantity::radius));
+  const auto& radius = frame.scalar(quantity::radius);
+  const auto [least, most] = std::minmax_element(radius.begin(), radius.end());
+  return *least == *most ? 2 * *least : 2 * mean(radius); // equal grains: without the rounding of a sum
 }
 
 } // namespace sandglass::analysis

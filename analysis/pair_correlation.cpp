@@ -134,9 +134,7 @@ PairCorrelationResult PairCorrelation::result() const {
     const double relativeSampling = expected > 0 ? std::sqrt(sampling) / expected : 0;
     worstSampling = std::max(worstSampling, relativeSampling);
     // counted / 2 independent pairs at most, hence sqrt(2 counted) and not sqrt(counted).
-    double error =
-        expected > 0 ? std::hypot(std::sqrt(2 * std::max(counted, 2.0)) / expected, value * relativeSampling)
-                     : 0;
+    double error = expected > 0 ? std::hypot(std::sqrt(2 * counted) / expected, value * relativeSampling) : 0;
     if (each.size() >= 4) error = blockedStandardError(each);
     g.x.push_back((b + 0.5) * dr / d);
     g.y.push_back(value);

@@ -26,7 +26,7 @@ const char* nameOf(Estimator estimator);
 struct PairCorrelationOptions {
   Estimator estimator = Estimator::localShell;
   double rMax = 0; ///< [m]; 0: five diameters
-  int bins = 100;
+  int bins = 200;
   double diameter = 0;  ///< [m]; 0: twice the mean radius of the first Frame
   RegionOptions region; ///< clearance 0: the mean radius; surfaceMargin 0: two diameters
   int directions = 32;  ///< see ShellCoverageOptions

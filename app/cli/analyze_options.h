@@ -18,7 +18,7 @@ struct AnalyzeOptions {
   bool csvOnly = false;
   std::string rMax = "5d", estimator = "E3", frames, diameter, margin, shares, depth, probe, flowingDensity;
   std::vector<std::string> limits;
-  int bins = 100;
+  int bins = 200;
 };
 
 /// "5d" in grain diameters, "12 mm" or "0.012" in metres. Throws InputError naming the option.

@@ -3,10 +3,14 @@
 
 #include "sim/base/random.h"
 #include "sim/frame/frame.h"
+#include "sim/walls/wall_registry.h"
 
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
 
 namespace sandglass::analysis::test {
 
@@ -52,6 +56,23 @@ inline FrameWall coneWall(double r, double height) {
     const double inward = (r * x.z() - height * std::hypot(x.x() - r, x.y() - r)) / slant;
     return std::min(inward, height - x.z());
   });
+}
+
+/// A wall as a scene makes it.
+inline FrameWall sceneWall(const std::string& kind, const std::map<std::string, ParameterValue>& values) {
+  for (const auto& known : wallKinds())
+    if (known.name == kind) {
+      Parameters parameters;
+      for (const auto& spec : known.parameters)
+        if (spec.fallback) parameters.set(spec.name, *spec.fallback);
+      for (const auto& [name, value] : values)
+        parameters.set(name, value);
+      FrameWall w;
+      w.name = kind;
+      w.shape = known.make(parameters);
+      return w;
+    }
+  throw std::runtime_error("no wall kind " + kind);
 }
 
 inline Frame frameOf(std::vector<Vec3> points, const Vec3& size, std::array<bool, 3> periodic,

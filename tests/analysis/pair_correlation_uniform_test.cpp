@@ -57,9 +57,19 @@ Verdict uniformVerdict(const Vec3& size, std::array<bool, 3> periodic, double ra
 TEST_CASE("uniform points in walled containers give 1", "[gr][uniform]") {
   const double radius = 0.05;
   const Vec3 size(1, 1, 1.2);
-  const auto [name, wall] = GENERATE(table<std::string, FrameWall>({{"box", boxWall(Vec3(1, 1, 1.2))},
-                                                                    {"cylinder", cylinderWall(0.5, 1.2)},
-                                                                    {"cone", coneWall(0.5, 1.2)}}));
+  // The walls of scenes: their distances are tested together with the estimator.
+  const auto [name, wall] = GENERATE(table<std::string, FrameWall>({
+      {"box", sceneWall("box", {{"lower", Vec3(0, 0, 0)}, {"upper", Vec3(1, 1, 1.2)}})},
+      {"cylinder",
+       sceneWall(
+           "cylinder",
+           {{"base", Vec3(0.5, 0.5, 0)}, {"radius", 0.5}, {"height", 1.2}, {"ends", std::string("both")}})},
+      {"cone", sceneWall("frustum", {{"base", Vec3(0.5, 0.5, 0)},
+                                     {"lower_radius", 0.0},
+                                     {"upper_radius", 0.5},
+                                     {"height", 1.2},
+                                     {"ends", std::string("both")}})},
+  }));
   const Verdict verdict =
       uniformVerdict(size, {false, false, false}, radius, {wall}, 0.5, Estimator::localShell);
   INFO(name << ": worst bin " << verdict.worst << " sigma, chi-squared probability " << verdict.probability);
