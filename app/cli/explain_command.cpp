@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/grains/seeding.h"
 #include "sim/scene/scene.h"
+#include "sim/scene/scene_reference.h"
 #include "sim/solvers/solver.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ namespace {
 struct ExplainArguments {
   std::string scene;
   std::vector<std::string> overrides;
-  bool quick = false, resolved = false;
+  bool quick = false, resolved = false, keys = false;
 };
 
 std::string wallTime(double seconds) {
@@ -110,6 +111,12 @@ void printCost(const Scene& scene, const Forecast& f, double time, const std::ve
 }
 
 int execute(const ExplainArguments& arguments) {
+  if (arguments.keys) {
+    fmt::print("{}", sceneReference());
+    return 0;
+  }
+  if (arguments.scene.empty())
+    throw InputError("name a scene to explain, or ask for the reference page with --keys");
   const auto files = locateScene(arguments.scene, arguments.quick, arguments.overrides);
   const Scene scene = readScene(files.scene, files.overrides);
   if (arguments.resolved) {
@@ -140,13 +147,14 @@ void addExplain(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<ExplainArguments>();
   CLI::App* command =
       app.add_subcommand("explain", "Say what a scene models, why, and what a run of it costs");
-  command->add_option("SCENE", arguments->scene, "scene file, or a folder with scene.toml")->required();
+  command->add_option("SCENE", arguments->scene, "scene file, or a folder with scene.toml");
   command
       ->add_option("--set", arguments->overrides, "key=value in place of the scene's, checked like the scene")
       ->allow_extra_args(false);
   command->add_flag("--quick", arguments->quick, "the small variant: also apply quick.set beside the scene");
   command->add_flag("--resolved", arguments->resolved,
                     "print the scene with every default and in SI units instead");
+  command->add_flag("--keys", arguments->keys, "print the reference page of all keys of a scene instead");
   command->callback([arguments, &action] { action = [arguments] { return execute(*arguments); }; });
 }
 

@@ -51,6 +51,8 @@ std::string vector(const Vec3& v, const std::string& unit) {
   return list(std::array{v.x(), v.y(), v.z()}, [&](double c) { return number(c, unit); });
 }
 
+} // namespace
+
 std::string valueText(const ParameterValue& value, const std::string& unit) {
   struct Printer {
     const std::string& unit;
@@ -69,6 +71,8 @@ std::string valueText(const ParameterValue& value, const std::string& unit) {
   };
   return std::visit(Printer{unit}, value);
 }
+
+namespace {
 
 using Lines = std::vector<std::string>; ///< "key = value"
 

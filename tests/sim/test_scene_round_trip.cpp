@@ -1,9 +1,12 @@
 #include "sim/base/error.h"
 #include "sim/scene/scene.h"
+#include "sim/scene/scene_reference.h"
 
 #include <catch2/catch.hpp>
 
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 using namespace sandglass;
 
@@ -212,4 +215,12 @@ TEST_CASE("sample scenes are sound and round-trip", "[scene][samples]") {
     ++found;
   }
   CHECK(found >= 4);
+}
+
+TEST_CASE("the reference page is that of this program", "[scene]") {
+  std::ifstream in(source + "/docs/scene_keys.md");
+  std::ostringstream page;
+  page << in.rdbuf();
+  // Made anew by: sandglass explain --keys > docs/scene_keys.md
+  CHECK(page.str() == sceneReference());
 }
