@@ -38,7 +38,7 @@ void FaultList::add(const std::string& key, const Known* at, const std::string& 
 
 void FaultList::wrong(const std::string& key, const std::string& problem) {
   const auto it = known_.find(key);
-  if (it == known_.end()) return about(key, "is left at its default, " + problem);
+  if (it == known_.end()) return about(key, "is not given, " + problem);
   add(key, &it->second, fmt::format("{} is {}, {}", key, it->second.text, problem));
 }
 

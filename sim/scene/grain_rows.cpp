@@ -72,7 +72,7 @@ void complete(Row& row, const std::vector<Species>& species) {
 
 std::vector<Row> inlineRows(TableReader& in, const std::vector<Species>& species) {
   std::vector<Row> rows;
-  for (const auto& [table, path] : in.subtables("grains")) {
+  for (const auto& [table, path] : in.subtables("grains", false)) {
     TableReader rowIn(*table, path, in.faults());
     Parameters values;
     rowIn.read(rowKeys(), values);

@@ -47,7 +47,7 @@ public:
       readOutlet(*table, path);
     for (const auto& [table, path] : top_.subtables("stage"))
       readStage(*table, path);
-    for (const auto& [table, path] : top_.subtables("fill"))
+    for (const auto& [table, path] : top_.subtables("fill", false))
       readFill(*table, path);
     for (const auto& [table, path] : top_.subtables("probe"))
       readProbe(*table, path);
@@ -104,7 +104,7 @@ private:
     readLaw(in, "normal", LawRole::normal, contact.normal);
     readLaw(in, "tangential", LawRole::tangential, contact.tangential);
     readLaw(in, "rolling", LawRole::rolling, contact.rolling);
-    for (const auto& [lawTable, lawPath] : in.subtables("gap")) {
+    for (const auto& [lawTable, lawPath] : in.subtables("gap", false)) {
       TableReader law(*lawTable, lawPath, faults_);
       law.choose("law", lawsOf(LawRole::gap), contact.gap.emplace_back());
       law.reportUnknown();
@@ -179,7 +179,7 @@ private:
 
   void readMixture(TableReader& in, FillSpec& fill) {
     const bool oneSpecies = !fill.mixture.empty();
-    const auto shares = in.subtables("mixture");
+    const auto shares = in.subtables("mixture", false);
     for (const auto& [table, path] : shares) {
       TableReader shareIn(*table, path, faults_);
       readKeys(shareIn, shareKeys(), fill.mixture.emplace_back());

@@ -221,7 +221,8 @@ const ValueTable* TableReader::subtable(const std::string& key) {
   return value->table();
 }
 
-std::vector<std::pair<const ValueTable*, std::string>> TableReader::subtables(const std::string& key) {
+std::vector<std::pair<const ValueTable*, std::string>> TableReader::subtables(const std::string& key,
+                                                                              bool named) {
   std::vector<std::pair<const ValueTable*, std::string>> all;
   const Value* value = take(key);
   if (!value) return all;
@@ -233,7 +234,7 @@ std::vector<std::pair<const ValueTable*, std::string>> TableReader::subtables(co
   }
   for (std::size_t i = 0; i < list->size(); ++i) {
     const Value& entry = (*list)[i];
-    const std::string path = pathOf(key) + "." + entryName(entry, i);
+    const std::string path = pathOf(key) + "." + (named ? entryName(entry, i) : std::to_string(i + 1));
     faults_.note(path, entry);
     if (entry.table())
       all.emplace_back(entry.table(), path);

@@ -26,8 +26,9 @@ public:
 
   /// A table below this one: null when absent or not a table (then reported).
   const ValueTable* subtable(const std::string& key);
-  /// A list of tables below this one, with the name of each; empty when absent.
-  std::vector<std::pair<const ValueTable*, std::string>> subtables(const std::string& key);
+  /// A list of tables below this one, with the path of each (by its name, else by its position); empty when
+  /// absent.
+  std::vector<std::pair<const ValueTable*, std::string>> subtables(const std::string& key, bool named = true);
   /// Marks a key as known and gives its value, or null.
   const Value* take(const std::string& key);
 
