@@ -62,7 +62,7 @@ void PairList::wrap(GrainStore& grains) const {
   }
 }
 
-void PairList::build(GrainStore& grains, double margin, Parallel& parallel,
+void PairList::build(GrainStore& grains, double range, Parallel& parallel,
                      const std::vector<std::uint8_t>& drop) {
   const std::size_t n = grains.size();
   if (periodic_) wrap(grains);
@@ -75,14 +75,15 @@ void PairList::build(GrainStore& grains, double margin, Parallel& parallel,
   double largest = 0.0;
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
   for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     if (!stays(i)) continue;
     const Quad& q = grains.place[i];
     ++staying;
-    largest = std::max(largest, q.w);
+    largest = std::max(largest, q.w + grains.listed[i].w);
     low = low.cwiseMin(q.vec());
     high = high.cwiseMax(q.vec());
   }
-  const double cutoff = 2.0 * largest + margin;
+  const double cutoff = 2.0 * largest + range;
   double cell = cutoff;
   for (int attempt = 0;; ++attempt) { // wide empty spaces get larger cells, so memory follows the grains
     double total = 1.0;
@@ -113,7 +114,10 @@ void PairList::build(GrainStore& grains, double margin, Parallel& parallel,
   for (std::size_t i = 0; i < n; ++i)
     if (stays(i)) order[cursor[cellOf[i]]++] = static_cast<std::int32_t>(i);
   grains.reorder(order);
-  grains.listed = grains.place;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const Quad& x = grains.place[i];
+    grains.listed[i] = {x.x, x.y, x.z, grains.listed[i].w};
+  }
 
   PairList old(domain_, historySize_, outputSize_);
   std::swap(old.pairs_, pairs_);
@@ -124,7 +128,7 @@ void PairList::build(GrainStore& grains, double margin, Parallel& parallel,
   std::swap(old.offsets_, offsets_);
   std::swap(old.entries_, entries_);
 
-  search(grains, cells, margin, parallel);
+  search(grains, cells, range, parallel);
   link(grains);
   history_.assign(pairs_.size() * historySize_, 0.0);
   output_.assign(pairs_.size() * outputSize_, 0.0);
@@ -132,7 +136,7 @@ void PairList::build(GrainStore& grains, double margin, Parallel& parallel,
   carry(old, order, grains, parallel);
 }
 
-void PairList::search(const GrainStore& grains, const Cells& cells, double margin, Parallel& parallel) {
+void PairList::search(const GrainStore& grains, const Cells& cells, double range, Parallel& parallel) {
   // Image codes: every shift that the stencil can meet.
   codes_.clear();
   shifts_.clear();
@@ -162,20 +166,21 @@ void PairList::search(const GrainStore& grains, const Cells& cells, double margi
   };
   constexpr std::int64_t chunk = 512;
   std::vector<std::vector<Found>> found(static_cast<std::size_t>((n + chunk - 1) / chunk));
-  const Quad* place = grains.place.data();
+  const Quad *place = grains.place.data(), *listed = grains.listed.data();
   parallel.forRange(static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t c = first; c < last; ++c) {
       auto& out = found[c];
       out.reserve(chunk * 6);
       for (std::int64_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
         const Quad me = place[i];
+        const double mine = me.w + listed[i].w + range;
         const std::array<int, 3> home{cells.along(me, 0), cells.along(me, 1), cells.along(me, 2)};
         const auto visit = [&](std::int32_t begin, std::int32_t end, int code) {
           const Vec3& s = shifts_[code];
           const double px = me.x - s.x(), py = me.y - s.y(), pz = me.z - s.z();
           for (std::int32_t j = begin; j < end; ++j) {
             const double dx = px - place[j].x, dy = py - place[j].y, dz = pz - place[j].z;
-            const double reach = me.w + place[j].w + margin;
+            const double reach = mine + place[j].w + listed[j].w;
             if (dx * dx + dy * dy + dz * dz < reach * reach)
               out.push_back({{static_cast<std::int32_t>(i), j}, static_cast<std::uint8_t>(code)});
           }

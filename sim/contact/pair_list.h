@@ -22,9 +22,10 @@ public:
   PairList(const Domain& domain, int historySize, int outputSize);
 
   /// Sorts the grains by cell, wraps them into the periodic box, remembers where they are and lists all pairs
-  /// with distance below r_a + r_b + margin. Live pairs keep their history, at the same key.
+  /// with distance below r_a + r_b + range + allowed_a + allowed_b, where `listed.w` of a grain holds how far
+  /// it may move before the list is too old. Live pairs keep their history, at the same key.
   /// Grains whose `drop` flag is set leave the store (an empty `drop` keeps all).
-  void build(GrainStore& grains, double margin, Parallel& parallel,
+  void build(GrainStore& grains, double range, Parallel& parallel,
              const std::vector<std::uint8_t>& drop = {});
 
   std::size_t size() const { return pairs_.size(); }
@@ -60,7 +61,7 @@ public:
 private:
   struct Cells;
   void wrap(GrainStore& grains) const;
-  void search(const GrainStore& grains, const Cells& cells, double margin, Parallel& parallel);
+  void search(const GrainStore& grains, const Cells& cells, double range, Parallel& parallel);
   void link(const GrainStore& grains);
   void carry(const PairList& old, const std::vector<std::int32_t>& oldIndex, const GrainStore& grains,
              Parallel& parallel);

@@ -6,7 +6,7 @@
 
 namespace sandglass {
 
-void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>& walls, double margin,
+void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>& walls, double range,
                          Parallel& parallel) {
   const auto n = static_cast<std::int64_t>(grains.size());
   constexpr std::int64_t chunk = 1024;
@@ -17,7 +17,7 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
         for (std::size_t w = 0; w < walls.size(); ++w) {
           if (!walls[w].active) continue;
           WallShape::Touches touches;
-          walls[w].shape->touches(grains.place[i].vec(), grains.place[i].w + margin, touches);
+          walls[w].shape->touches(grains.place[i].vec(), grains.place[i].w + range + grains.listed[i].w, touches);
           if (touches.count > 0)
             found[c].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
         }

@@ -25,7 +25,7 @@ class WallContacts {
 public:
   explicit WallContacts(const LawStack& laws) : laws_(laws) {}
 
-  /// Lists grains within radius + margin of an active wall. Histories are carried by (grain id, wall).
+  /// Lists grains within radius + range + allowed movement of an active wall. Histories are carried by (grain id, wall).
   void build(const GrainStore& grains, const std::vector<SolverWall>& walls, double margin,
              Parallel& parallel);
 

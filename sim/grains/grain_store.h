@@ -27,7 +27,7 @@ struct GrainStore {
   std::vector<Quad> force;  ///< [N]
   std::vector<Quad> spin;   ///< [rad/s], 1/inertia [1/(kg m^2)]; when turning
   std::vector<Quad> torque; ///< [N m]; when turning
-  std::vector<Quad> listed; ///< position when the list was built [m]
+  std::vector<Quad> listed; ///< position when the list was built, and how far the grain may move from it [m]
   std::vector<std::int64_t> id;
   std::vector<std::int16_t> species;
   std::vector<std::uint8_t> material;

@@ -50,7 +50,7 @@ point = ["0", "0", "0"]
 normal = [0, 0, 1]
 [[fill]]
 kind = "list"
-grains = [{{ position = ["1 mm", "1 mm", "1 mm"], species = "bead" }}]
+grains = [{{ position = ["2 mm", "2 mm", "2 mm"], species = "bead" }}]
 [[stage]]
 name = "run"
 until = {{ duration = "1 s" }}

@@ -217,8 +217,12 @@ void DemSolver::load(const State& s) {
   // The list as it was: built from the positions that it was built from. The sort is stable, so the storage
   // order stays, and histories fit their pairs again.
   const std::vector<Quad> now = grains_.place;
-  grains_.place = grains_.listed;
-  rebuild();
+  for (std::size_t i = 0; i < grains_.size(); ++i) {
+    const Quad& l = grains_.listed[i];
+    grains_.place[i] = {l.x, l.y, l.z, grains_.place[i].w};
+  }
+  list_.build(grains_, laws_.range(), parallel_);
+  wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
   grains_.place = now;
   const auto restore = [&](const char* name, auto& array) {
     const std::size_t expected = array.size();

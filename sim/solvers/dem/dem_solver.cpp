@@ -21,6 +21,8 @@ namespace {
 /// Steps between two looks at the outlets: often enough for a smooth discharge curve (a millisecond or so),
 /// rare enough to cost nothing.
 constexpr int stepsBetweenOutletChecks = 50;
+/// A list is made to last about this many steps of straight flight, beside the skin of a grain at rest.
+constexpr double stepsOfFlight = 16;
 constexpr std::int64_t grainsPerPiece = 1024;
 
 int materialIndex(const Scene& scene, const std::string& name) {
@@ -55,6 +57,7 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
     diameter += range.meanDiameter / static_cast<double>(scene.species.size());
     smallest = std::min(smallest, range.smallest);
   }
+  meanDiameter_ = diameter;
   skin_ = scene.accuracy.skin * diameter;
   smallestRadius_ = 0.5 * smallest;
   grains_.turning = laws_.turning();
@@ -105,8 +108,13 @@ void DemSolver::removeWall(const std::string& name) {
 }
 
 void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
-  list_.build(grains_, laws_.range() + skin_, parallel_, drop);
-  wallContacts_.build(grains_, walls_, laws_.range() + 0.5 * skin_, parallel_);
+  // A fast grain may go further before the list is too old: a stream that falls beside a bed at rest would
+  // otherwise have the whole bed listed anew every few steps.
+  const double look = stepsOfFlight * dt_, most = 0.25 * meanDiameter_;
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    grains_.listed[i].w = 0.5 * skin_ + std::min(look * grains_.motion[i].vec().norm(), most);
+  list_.build(grains_, laws_.range(), parallel_, drop);
+  wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
   ++rebuilds_;
 }
 
@@ -135,13 +143,12 @@ void DemSolver::stepOnce() {
 }
 
 bool DemSolver::drift() {
-  const double half = 0.5 * dt_, tooFar = 0.25 * skin_ * skin_;
+  const double half = 0.5 * dt_;
   const double tooFast = 0.0625 * smallestRadius_ * smallestRadius_ / (dt_ * dt_); // a quarter radius a step
   std::atomic<bool> old{false}, bad{false};
   parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
                      [&](std::int64_t first, std::int64_t last) {
-                       double farthest = 0.0;
-                       bool wrong = false;
+                       bool late = false, wrong = false;
                        for (std::int64_t i = first; i < last; ++i) {
                          Quad &x = grains_.place[i], &v = grains_.motion[i];
                          const Quad &f = grains_.force[i], &l = grains_.listed[i];
@@ -153,7 +160,7 @@ bool DemSolver::drift() {
                          x.y += dt_ * v.y;
                          x.z += dt_ * v.z;
                          const double dx = x.x - l.x, dy = x.y - l.y, dz = x.z - l.z;
-                         farthest = std::max(farthest, dx * dx + dy * dy + dz * dz);
+                         late = late || dx * dx + dy * dy + dz * dz > l.w * l.w;
                          wrong = wrong || !(v.x * v.x + v.y * v.y + v.z * v.z <= tooFast); // catches NaN too
                        }
                        if (grains_.turning)
@@ -165,7 +172,7 @@ bool DemSolver::drift() {
                            w.y += kick * t.y;
                            w.z += kick * t.z;
                          }
-                       if (farthest > tooFar) old = true;
+                       if (late) old = true;
                        if (wrong) bad = true;
                      });
   if (bad) reportBadMotion();

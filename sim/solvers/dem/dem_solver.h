@@ -73,7 +73,7 @@ private:
   PairForces pairForces_;
   WallContacts wallContacts_;
   std::vector<SolverWall> walls_;
-  double dt_ = 0, skin_ = 0, smallestRadius_ = 0;
+  double dt_ = 0, skin_ = 0, meanDiameter_ = 0, smallestRadius_ = 0;
   std::int64_t step_ = 0, nextId_ = 0, rebuilds_ = 0;
   bool stale_ = true;
   Flow flow_;

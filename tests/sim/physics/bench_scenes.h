@@ -59,7 +59,7 @@ rolling = {}
 {}
 [[fill]]
 kind = "list"
-grains = [{{ position = ["0 m", "0 m", "0 m"], species = "bead"{} }}]
+grains = [{{ position = ["2 mm", "2 mm", "2 mm"], species = "bead"{} }}]
 [[stage]]
 name = "run"
 until = {{ duration = "1 s" }}
