@@ -75,7 +75,6 @@ void PairList::build(GrainStore& grains, double range, Parallel& parallel,
   double largest = 0.0;
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
   for (std::size_t i = 0; i < n; ++i) {
-  for (std::size_t i = 0; i < n; ++i) {
     if (!stays(i)) continue;
     const Quad& q = grains.place[i];
     ++staying;
