@@ -33,7 +33,7 @@ const std::vector<Definition>& definitions() {
       {"inferno",
        Between::lab,
        {0x000004, 0x1b0c42, 0x4b0c6b, 0x781c6d, 0xa52c60, 0xcf4446, 0xed6925, 0xfb9a06, 0xf7d03c, 0xfcffa4}},
-      {"dune", Between::lab, {0x1a2d52, 0x1f5268, 0x2f7871, 0x6d9765, 0xc0ae62, 0xf7e3b0}},
+      {"dune", Between::lab, {0x17447f, 0x006a94, 0x3a9094, 0x8aaf8a, 0xd8c685, 0xf9e1bb}},
       {"grey", Between::lab, {0x262626, 0xf1f1f1}},
       {"coolwarm", Between::diverging, {0x3b4cc0, 0xb40426}},
       {"discrete",

@@ -3,7 +3,7 @@
 // map survives grey printing and colour-blind eyes.
 //   viridis, inferno  Smith and van der Walt 2015 (CC0), ten stops each
 //   cividis           Nunez, Anderton, Renslow 2018, doi:10.1371/journal.pone.0199239, ten stops
-//   dune              our own: L* from 20 to 92 from night blue over teal to sand
+//   dune              our own: L* from 29 to 91 in even steps, from deep blue over teal to sand
 //   grey              L* from 15 to 95
 //   coolwarm          diverging, Moreland 2009, doi:10.1007/978-3-642-10520-3_9
 //   discrete          eight colours, Okabe and Ito 2008, for species and other counted things

@@ -42,7 +42,8 @@ GrainLayer::GrainLayer() {
       "    base2 *= wider;\n"
       "    }\n",
       false);
-  // The brightest spot has just the colour of the map: ambient + diffuse * |0.90 key + 0.38 fill| + specular = 1.
+  // The brightest spot has just the colour of the map: ambient + diffuse * |0.90 key + 0.38 fill| + specular
+  // = 1.
   actor_->GetProperty()->SetAmbient(0.30);
   actor_->GetProperty()->SetDiffuse(0.63);
   actor_->GetProperty()->SetSpecular(0.04);

@@ -18,16 +18,18 @@ namespace {
 
 // Lengths in pixels of a picture 720 high; everything scales with the picture.
 constexpr float margin = 26, titleSize = 19, textSize = 15, barWidth = 18, legendSpace = 128;
-constexpr float axesArm = 30, axesSpace = 88, topSpace = 58;
+constexpr float axesArm = 26, axesSpace = 88, topSpace = 58;
 
 enum class Side { left, centre, right };
 
 float scaleOf(const OverlayContent& c) {
-  return std::max(0.4F, std::min(static_cast<float>(c.width) / 1280, static_cast<float>(c.height) / 720));
+  // Small pictures get relatively larger writing, or nobody could read it.
+  return std::pow(std::min(static_cast<float>(c.width) / 1280, static_cast<float>(c.height) / 720), 0.8F);
 }
 
 void write(vtkContext2D* painter, const OverlayContent& c, float x, float y, const std::string& text,
-           float size, Side side, bool bold = false, double strength = 0.85) {
+           float size, Side side, bool bold = false, bool backed = false) {
+  constexpr double strength = 0.85;
   const auto ink = inkOn(c.background, strength);
   vtkTextProperty* style = painter->GetTextProp();
   setFont(style, static_cast<int>(std::lround(size * scaleOf(c))), bold);
@@ -41,6 +43,14 @@ void write(vtkContext2D* painter, const OverlayContent& c, float x, float y, con
     style->SetJustificationToRight();
   else
     style->SetJustificationToCentered();
+  if (backed) { // a pale ground under writing that lines of the scene may cross
+    float bounds[4]{};
+    painter->ComputeStringBounds(text.c_str(), bounds);
+    const float wide = bounds[2], high = 1.5F * size * scaleOf(c), air = 5 * scaleOf(c);
+    painter->GetPen()->SetLineType(vtkPen::NO_PEN);
+    painter->GetBrush()->SetColorF(c.background[0], c.background[1], c.background[2], 0.8);
+    painter->DrawRect(side == Side::left ? x - air : x - wide - air, y - high / 2, wide + 2 * air, high);
+  }
   painter->DrawString(std::round(x), std::round(y), text.c_str());
 }
 
@@ -59,7 +69,7 @@ void setPen(vtkContext2D* painter, const std::array<double, 3>& colour, float wi
 
 void fill(vtkContext2D* painter, const std::array<double, 3>& colour, float x, float y, float w, float h) {
   painter->GetPen()->SetLineType(vtkPen::NO_PEN);
-  painter->GetBrush()->SetColorF(colour[0], colour[1], colour[2]);
+  painter->GetBrush()->SetColorF(colour[0], colour[1], colour[2], 1);
   painter->DrawRect(x, y, w, h);
 }
 
@@ -71,13 +81,17 @@ std::array<double, 3> toUnit(const Rgb& c) {
 
 vtkStandardNewMacro(Overlay);
 
-Frameable freeArea(const OverlayContent& c) {
+Frameable freeArea(const View& view, bool titled) {
+  OverlayContent c;
+  c.width = view.width;
+  c.height = view.height;
   const float s = scaleOf(c), w = static_cast<float>(c.width), h = static_cast<float>(c.height);
+  const bool legend = view.legend && view.grains && !view.colouring.quantity.empty();
   Frameable area;
   area.left = margin * s / w;
-  area.right = 1 - (c.legend ? legendSpace : margin) * s / w;
-  area.top = (c.title.empty() && c.time.empty() ? margin : topSpace) * s / h;
-  area.bottom = 1 - (c.axes || c.metresPerPixel > 0 ? axesSpace : margin) * s / h;
+  area.right = 1 - (legend ? legendSpace : margin) * s / w;
+  area.top = (titled || view.timeStamp ? topSpace : margin) * s / h;
+  area.bottom = 1 - (view.axes || view.scaleBar ? axesSpace : margin) * s / h;
   return area;
 }
 
@@ -89,9 +103,10 @@ bool Overlay::Paint(vtkContext2D* painter) {
   const float s = scale(), w = static_cast<float>(content.width), h = static_cast<float>(content.height);
   const float top = h - (margin + titleSize / 2) * s;
   if (!content.title.empty())
-    write(painter, content, margin * s, top, content.title, titleSize, Side::left, true);
+    write(painter, content, margin * s, top, content.title, titleSize, Side::left, true, content.backed);
   if (!content.time.empty())
-    write(painter, content, w - margin * s, top, content.time, textSize + 1, Side::right);
+    write(painter, content, w - margin * s, top, content.time, textSize + 1, Side::right, false,
+          content.backed);
   if (content.legend) {
     if (content.legend->entries.empty())
       paintLegend(painter, *content.legend);
@@ -142,8 +157,7 @@ void Overlay::paintEntries(vtkContext2D* painter, const Legend& legend) const {
 }
 
 void Overlay::paintAxes(vtkContext2D* painter, const CameraAxes& axes) const {
-  const float s = scale(), arm = axesArm * s, x0 = (margin + axesArm + 8) * s,
-              y0 = (margin + axesArm + 4) * s;
+  const float s = scale(), arm = axesArm * s, x0 = (margin + axesArm + 8) * s, y0 = (margin + 18) * s;
   static constexpr const char* names[] = {"x", "y", "z"};
   struct Arrow {
     int axis;
@@ -162,7 +176,7 @@ void Overlay::paintAxes(vtkContext2D* painter, const CameraAxes& axes) const {
     const auto ink = inkOn(content.background, a.towards < -0.3 ? 0.45 : 0.75);
     setPen(painter, ink, 1.6F * s);
     painter->DrawLine(x0, y0, x, y);
-    painter->GetBrush()->SetColorF(ink[0], ink[1], ink[2]);
+    painter->GetBrush()->SetColorF(ink[0], ink[1], ink[2], 1);
     const float tip = 7 * s, half = 3 * s;
     float px[] = {x + tip * dx, x - half * dy, x + half * dy},
           py[] = {y + tip * dy, y + half * dx, y - half * dx};

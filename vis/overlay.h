@@ -27,11 +27,12 @@ struct OverlayContent {
   std::optional<CameraAxes> axes; ///< directions as seen by this camera
   double metresPerPixel = 0;      ///< at the target; 0: no scale bar
   std::array<double, 3> background{1, 1, 1};
+  bool backed = true; ///< a veil of the background behind title and time
   int width = 0, height = 0;
 };
 
-/// The part of the picture that the overlay leaves free.
-Frameable freeArea(const OverlayContent& content);
+/// The part of the picture that the writing leaves free. `titled`: whether there is a title.
+Frameable freeArea(const View& view, bool titled);
 
 class Overlay : public vtkContextItem {
 public:

@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "vis/chart_layer.h"
 #include "vis/colour_map.h"
+#include "vis/fit.h"
 #include "vis/gl/external_window.h"
 #include "vis/grain_layer.h"
 #include "vis/overlay.h"
@@ -227,23 +228,20 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   d.visible = visibleGrains(frame, view);
   const auto subset = evenSubset(d.visible.index.size(), view.maximumGrains);
   const Colours colours = coloursOf(frame, view.colouring, d.visible, subset);
-  const Eigen::AlignedBox3d box = pictureBox(frame);
+  const Eigen::AlignedBox3d box = domainBox(frame);
 
   OverlayContent& over = d.overlay->content;
   over.width = view.width;
   over.height = view.height;
   over.background = view.background;
+  over.backed = !view.transparentBackground;
   const auto sceneTitle = frame.provenance.find("title");
   over.title = view.title.empty() && sceneTitle != frame.provenance.end() ? sceneTitle->second : view.title;
   over.time = view.timeStamp ? timeText(frame.time) : "";
   over.legend = view.legend && view.grains ? colours.legend : std::nullopt;
-  over.axes.reset();
-  if (view.axes) over.axes.emplace();
-  over.metresPerPixel = view.scaleBar ? 1 : 0;
-  d.camera = resolve(view.camera, box, frame.domain.periodic, static_cast<double>(view.width) / view.height,
-                     freeArea(over));
-  if (view.axes) over.axes = axesOf(d.camera);
-  if (view.scaleBar) over.metresPerPixel = heightAtTarget(d.camera) / view.height;
+  d.camera = fitCamera(frame, view, grainBox(frame));
+  over.axes = view.axes ? std::optional(axesOf(d.camera)) : std::nullopt;
+  over.metresPerPixel = view.scaleBar ? heightAtTarget(d.camera) / view.height : 0;
 
   const std::lock_guard lock(vtkTurn());
   d.window->MakeCurrent();

@@ -24,7 +24,7 @@ enum class ColourRange { frame, run, fixed };
 
 struct Colouring {
   std::string quantity = "speed"; ///< what grainScalar() understands, or "" for one colour
-  std::string map = "viridis";    ///< perceptually uniform maps, see colourMaps()
+  std::string map = "dune";       ///< perceptually uniform maps, see colourMaps()
   ColourRange range = ColourRange::frame;
   double low = 0, high = 1;       ///< for ColourRange::fixed and, once known, ::run
   std::array<double, 3> plain{0.85, 0.78, 0.62};

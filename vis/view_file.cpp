@@ -63,7 +63,9 @@ void readPicture(TomlFields& fields, View& view) {
   fields.integer("maximum_grains", view.maximumGrains, 0, 2000000000);
 }
 
-toml::array array(const auto& v) { return toml::array{double(v[0]), double(v[1]), double(v[2])}; }
+toml::array array(const auto& v) {
+  return toml::array{double(v[0]), double(v[1]), double(v[2])};
+}
 
 } // namespace
 

@@ -67,22 +67,4 @@ PickResult pickAlong(const Ray& ray, const VisibleGrains& grains) {
   return best;
 }
 
-Eigen::AlignedBox3d pictureBox(const Frame& frame) {
-  const Vec3 size = frame.domain.upper - frame.domain.lower;
-  if (size.allFinite() && (size.array() > 0).all()) return {frame.domain.lower, frame.domain.upper};
-  Eigen::AlignedBox3d box;
-  View everything;
-  const VisibleGrains grains = visibleGrains(frame, everything);
-  for (std::size_t i = 0; i < grains.position.size(); ++i) {
-    box.extend(grains.position[i] - Vec3::Constant(grains.radius[i]));
-    box.extend(grains.position[i] + Vec3::Constant(grains.radius[i]));
-  }
-  for (const auto& wall : frame.walls) {
-    const auto bounds = wall.shape->bounds();
-    if (bounds.min().allFinite() && bounds.max().allFinite()) box.extend(bounds);
-  }
-  if (box.isEmpty()) box.extend(Vec3(-1, -1, -1)), box.extend(Vec3(1, 1, 1));
-  return box;
-}
-
 } // namespace sandglass::vis

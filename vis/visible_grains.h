@@ -33,7 +33,4 @@ bool isClipped(const std::vector<ClipPlane>& clips, const Vec3& point);
 /// The first grain that the ray hits.
 PickResult pickAlong(const Ray& ray, const VisibleGrains& grains);
 
-/// The box that a picture of the frame holds: the domain, or what is there when the frame has none.
-Eigen::AlignedBox3d pictureBox(const Frame& frame);
-
 } // namespace sandglass::vis

@@ -6,7 +6,8 @@
 #include "sim/base/error.h"
 #include "sim/io/run_folder.h"
 #include "vis/difference_picture.h"
-#include "vis/run_range.h"
+#include "vis/fit.h"
+#include "vis/survey.h"
 
 #include <fmt/format.h>
 
@@ -115,15 +116,26 @@ int render(const RenderOptions& options) {
                     tasks.size()));
   if (!options.folder.empty()) fs::create_directories(options.folder);
 
-  if (view.colouring.range == vis::ColourRange::run && !view.colouring.quantity.empty()) {
+  // The colours of a film must mean the same from one picture to the next.
+  const bool filmRange = options.range.empty() && options.viewFile.empty() && !options.movie.empty();
+  if (filmRange) view.colouring.range = vis::ColourRange::run;
+  const bool wantsRange = view.colouring.range == vis::ColourRange::run && !view.colouring.quantity.empty();
+  const bool wantsCamera = !view.camera.preset.empty() && tasks.size() > 1;
+  if (wantsRange || wantsCamera) {
     std::vector<const FrameSource*> all;
     std::size_t frames = 0;
     for (const auto& source : sources)
       all.push_back(source.get()), frames += source->size();
-    Countdown scan("colour range", frames);
-    const auto [low, high] = vis::runRange(all, view.colouring.quantity, [&] { scan.step(); });
-    view.colouring.low = low;
-    view.colouring.high = high;
+    Countdown scan("reading", frames);
+    const vis::Survey found =
+        vis::survey(all, wantsRange ? view.colouring.quantity : "", [&] { scan.step(); });
+    if (wantsRange) {
+      const auto [low, high] = filmRange ? found.lastStage : found.run;
+      view.colouring.low = low;
+      view.colouring.high = high;
+    }
+    if (wantsCamera)
+      view.camera = vis::fitCamera(*tasks.back().source->load(tasks.back().frame), view, found.grains);
   }
 
   vis::Renderer renderer(backendOf(options.backend));
@@ -177,7 +189,7 @@ void addRender(CLI::App& app, Action& action) {
       ->type_name("NAME");
   command
       ->add_option("--range", o.range,
-                   "colour range: frame, run or LOW:HIGH (default: run for a film, else frame)")
+                   "colour range: frame, run or LOW:HIGH (default: the last stage's for a film, else frame)")
       ->type_name("RANGE");
   command->add_option("--clip", o.clips, "side to keep, such as y<0; may be repeated")
       ->type_name("PLANE")

@@ -73,10 +73,7 @@ vis::View viewOf(const RenderOptions& options) {
   if (!options.colour.empty()) view.colouring.quantity = options.colour == "none" ? "" : options.colour;
   if (!options.map.empty()) view.colouring.map = options.map;
   if (options.transparent) view.transparentBackground = true;
-  // The colours of a film must mean the same from one picture to the next.
-  const std::string range =
-      options.range.empty() && options.viewFile.empty() && !options.movie.empty() ? "run" : options.range;
-  if (!range.empty()) attempt([&] { setRange(view.colouring, range); });
+  if (!options.range.empty()) attempt([&] { setRange(view.colouring, options.range); });
   if (!options.size.empty())
     attempt([&] {
       const auto pair = parsedPair<int>(options.size, 'x');
