@@ -33,7 +33,22 @@ std::optional<FirstShell> firstShell(std::span<const double> r, std::span<const 
   std::size_t last = lowest;
   while (last + 1 <= to && smooth(last + 1) <= smooth(lowest) + 1e-12)
     ++last;
-  return FirstShell{r[peak], 0.5 * (r[lowest] + r[last])};
+  double minimum = 0.5 * (r[lowest] + r[last]);
+
+  // Granular minima are broad and noisy: the vertex of a parabola through g within 0.15 either side. With
+  // offsets t symmetric about 0: slope = S(tg) / S(tt), curvature from the even moments.
+  const std::size_t wing = static_cast<std::size_t>(std::lround(0.15 / width));
+  if (wing >= 2 && lowest > peak + wing && lowest + wing < r.size() && last == lowest) {
+    double n = 0, tt = 0, tttt = 0, sg = 0, tg = 0, ttg = 0;
+    for (std::size_t b = lowest - wing; b <= lowest + wing; ++b) {
+      const double t = r[b] - r[lowest];
+      n += 1, tt += t * t, tttt += t * t * t * t;
+      sg += g[b], tg += t * g[b], ttg += t * t * g[b];
+    }
+    const double curvature = (n * ttg - tt * sg) / (n * tttt - tt * tt), shift = -tg / tt / (2 * curvature);
+    if (curvature > 0 && std::abs(shift) < 0.15) minimum += shift;
+  }
+  return FirstShell{r[peak], minimum};
 }
 
 } // namespace sandglass::analysis

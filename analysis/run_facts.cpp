@@ -34,7 +34,13 @@ RunFacts factsOf(const Scene& scene) {
       facts.outlet = p.number("outlet");
     }
   }
-  if (!scene.species.empty()) facts.grainDensity = scene.material(scene.species.front().material).density;
+  for (const auto& species : scene.species) {
+    const double density = scene.material(species.material).density;
+    if (&species == &scene.species.front())
+      facts.grainDensity = density;
+    else if (density != facts.grainDensity)
+      facts.grainDensity = 0;
+  }
   for (const auto& probe : scene.probes) {
     if (facts.flowProbe.empty() && probe.what.kind == "flow_rate") facts.flowProbe = probe.name;
     if (facts.energyProbe.empty() && probe.what.kind == "energies") facts.energyProbe = probe.name;

@@ -17,7 +17,7 @@ struct RunFacts {
   std::optional<OutletShape> shape; ///< of the outlet of a wedge or cone hopper
   double outlet = 0;                ///< its width or diameter [m]
   std::optional<double> slotDepth;  ///< [m], of a slot along a periodic axis
-  double grainDensity = 0;          ///< [kg/m^3], of the first species' material; 0 when unknown
+  double grainDensity = 0;          ///< [kg/m^3], where all species have the same; else 0
   std::string flowProbe;            ///< name of the first flow_rate probe, or empty
   std::string energyProbe;          ///< name of the first energies probe, or empty
 };

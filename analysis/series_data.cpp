@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <numbers>
 
 namespace sandglass::analysis {
 
@@ -28,13 +28,20 @@ DischargeData dischargeOf(const SeriesColumns& columns, const std::string& probe
   return {it->second.time, it->second.value};
 }
 
-DischargeData dischargeOf(const FrameSource& frames) {
+DischargeData dischargeOf(const FrameSource& frames, double density) {
   DischargeData data;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     const FramePtr frame = frames.load(f);
-    const auto& mass = frame->scalar(quantity::mass);
+    double mass = 0;
+    if (density > 0 && !frame->scalars.contains(quantity::mass)) {
+      for (const double r : frame->scalar(quantity::radius))
+        mass += density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    } else {
+      for (const double m : frame->scalar(quantity::mass))
+        mass += m;
+    }
     data.time.push_back(frame->time);
-    data.mass.push_back(std::accumulate(mass.begin(), mass.end(), 0.0));
+    data.mass.push_back(mass);
   }
   const auto fullest = std::max_element(data.mass.rbegin(), data.mass.rend());
   if (fullest == data.mass.rend()) return data;

@@ -16,8 +16,9 @@ using SeriesColumns = std::map<std::string, SeriesColumn>;
 /// Mass through the plane of a flow_rate probe. Throws InputError when the probe is not among the columns.
 DischargeData dischargeOf(const SeriesColumns& columns, const std::string& probe, const std::string& source);
 
-/// Mass gone from the frames since they held most. Throws InputError when they have no masses.
-DischargeData dischargeOf(const FrameSource& frames);
+/// Mass gone from the frames since they held most. Masses are those of the frames, or, where these have radii
+/// alone, of spheres of `density` [kg/m^3] (0: unknown). Throws InputError when there is neither.
+DischargeData dischargeOf(const FrameSource& frames, double density = 0);
 
 /// The energies that an energies probe saw, one line each. Throws InputError when it is not among the
 /// columns.

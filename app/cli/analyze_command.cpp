@@ -165,7 +165,7 @@ std::pair<DischargeFit, Curve> dischargeFor(const Source& source, const AnalyzeO
     throw InputError(
         fmt::format("{}: there is no series.csv with the probe '{}'", source.path.string(), probe));
   else
-    data = dischargeOf(*source.frames);
+    data = dischargeOf(*source.frames, source.facts.grainDensity);
   DischargeOptions o;
   if (!options.shares.empty()) o.shares = shareRange(options.shares);
   o.depth =

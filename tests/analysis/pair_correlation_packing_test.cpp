@@ -7,6 +7,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <fstream>
+#include <sstream>
+
 using namespace sandglass;
 using namespace sandglass::analysis;
 using namespace sandglass::analysis::test;
@@ -80,4 +83,52 @@ TEST_CASE("E3 equals the guard zone inside a walled packing", "[gr][packing]") {
   }
   // Without correction the far end lies lower by the share of the shells outside: more than 20 % here.
   CHECK(uncorrected[bins - 1] < 0.8 * corrected[bins - 1]);
+}
+
+TEST_CASE("E3 equals the guard zone inside a settled bed", "[gr][packing]") {
+  // tests/data says where the bed comes from. Eight windows of 25 mm x 36 mm, through the whole periodic
+  // depth of 2.5 diameters, two diameters or more from all walls and the free surface, give the error of the
+  // difference.
+  std::ifstream file(SANDGLASS_SOURCE_DIR "/tests/data/settled_slot_bed.txt");
+  std::vector<Vec3> points;
+  for (std::string line; std::getline(file, line);) {
+    Vec3 x;
+    if (line[0] != '#' && std::istringstream(line) >> x.x() >> x.y() >> x.z()) points.push_back(1e-6 * x);
+  }
+  REQUIRE(points.size() == 6790);
+  Frame frame = frameOf(points, Vec3(0.0625, 0.1, 0.0028), {false, false, true}, 0.00112);
+  frame.domain.lower = Vec3(-0.0625, 0, -0.0028);
+
+  constexpr int bins = 30, windows = 8;
+  std::vector<std::vector<double>> difference(bins), g(bins);
+  std::vector<double> contacts;
+  for (int w = 0; w < windows; ++w) {
+    PairCorrelationOptions options;
+    options.rMax = 3 * 0.00224;
+    options.bins = bins;
+    options.region.lower = Vec3(-0.05 + 0.025 * (w % 4), 0.008 + 0.036 * (w / 4), -1);
+    options.region.upper = options.region.lower + Vec3(0.025, 0.036, 2);
+    const auto local = pairCorrelation(frame, options);
+    const Curve& e3 = local.g;
+    contacts.push_back(local.coordination.series[0].y[9]);
+    options.estimator = Estimator::guardZone;
+    const auto e1 = pairCorrelation(frame, options).g;
+    REQUIRE(e1.numbers.at("references") > 150);
+    for (int b = 0; b < bins; ++b) {
+      difference[b].push_back(e3.series[0].y[b] - e1.series[0].y[b]);
+      g[b].push_back(e3.series[0].y[b]);
+    }
+  }
+  for (int b = 0; b < 9; ++b)
+    CHECK(mean(g[b]) == 0); // no overlap reaches a tenth of a diameter
+  // Contacts, all in the bin below one diameter: between the isostatic numbers of rough and smooth spheres.
+  CHECK(mean(contacts) > 4);
+  CHECK(mean(contacts) < 6);
+  for (int b = 9; b < bins; ++b) {
+    const double t = mean(difference[b]) / std::sqrt(variance(difference[b]) / windows);
+    INFO("bin " << b << ": g = " << mean(g[b]) << ", difference " << mean(difference[b]) << ", t = " << t);
+    CHECK(std::abs(t) < studentFactor(0.999, windows - 1));
+    CHECK(std::sqrt(variance(difference[b]) / windows) <
+          0.1 * std::max(1.0, mean(g[b]))); // a test with teeth
+  }
 }
