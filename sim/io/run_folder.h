@@ -1,5 +1,5 @@
 #pragma once
-// The files of a run: scene.toml, frames/, series.csv, checkpoints/, log.txt, run.pvd.
+// The files of a run: scene.toml, frames/, series.csv, checkpoints/, log.txt.
 // A kill at any moment leaves every closed segment and a checkpoint readable.
 
 #include "sim/base/log.h"
