@@ -1,9 +1,13 @@
 #include "vis/toml_fields.h"
 
+#include "sim/base/error.h"
+#include "sim/scene/units.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace sandglass::vis {
@@ -14,6 +18,18 @@ std::string shown(const toml::node& node) {
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   return text.str();
+}
+
+/// A finite number, or where `lengths` are due also a text with a unit.
+std::optional<double> finite(const toml::node& node, bool lengths) {
+  std::optional<double> v = node.is_number() ? node.value<double>() : std::nullopt;
+  if (const auto text = node.value_exact<std::string>(); lengths && text) try {
+      v = parseQuantity(*text, "m");
+    } catch (const InputError&) {
+      return std::nullopt; // the caller's sentence tells the rule
+    }
+  if (v && !std::isfinite(*v)) return std::nullopt;
+  return v;
 }
 
 } // namespace
@@ -79,15 +95,16 @@ void TomlFields::choice(const std::string& key, std::string& value, const std::v
     fault(key, fmt::format("is {}; it must be one of: \"{}\"", shown(*node), fmt::join(choices, "\", \"")));
 }
 
-bool TomlFields::three(const std::string& key, std::array<double, 3>& value, const char* meaning) {
+bool TomlFields::three(const std::string& key, std::array<double, 3>& value, const char* meaning,
+                       bool lengths) {
   const toml::node* node = find(key);
   if (!node) return false;
   const toml::array* list = node->as_array();
   std::array<double, 3> read{};
   bool good = list && list->size() == 3;
   for (std::size_t k = 0; good && k < 3; ++k) {
-    const auto v = list->get(k)->is_number() ? list->get(k)->value<double>() : std::nullopt;
-    good = v && std::isfinite(*v);
+    const auto v = finite(*list->get(k), lengths);
+    good = v.has_value();
     if (good) read[k] = *v;
   }
   if (!good)
@@ -95,6 +112,23 @@ bool TomlFields::three(const std::string& key, std::array<double, 3>& value, con
   else
     value = read;
   return good;
+}
+
+void TomlFields::length(const std::string& key, double& value) {
+  const toml::node* node = find(key);
+  if (!node) return;
+  const auto v = finite(*node, true);
+  if (v && *v > 0)
+    value = *v;
+  else
+    fault(key,
+          fmt::format("is {}; it must be a length above 0, in metres or such as \"2 cm\"", shown(*node)));
+}
+
+void TomlFields::point(const std::string& key, Vec3& value) {
+  std::array<double, 3> read{};
+  if (three(key, read, "three lengths, [x, y, z], in metres or such as \"2 cm\"", true))
+    value = Vec3(read[0], read[1], read[2]);
 }
 
 void TomlFields::vector(const std::string& key, Vec3& value) {

@@ -26,7 +26,9 @@ public:
               double high = std::numeric_limits<double>::max());
   void text(const std::string& key, std::string& value);
   void choice(const std::string& key, std::string& value, const std::vector<std::string>& choices);
-  void vector(const std::string& key, Vec3& value);                  ///< [x, y, z]
+  void length(const std::string& key, double& value); ///< above 0; metres, or a text such as "2 cm"
+  void point(const std::string& key, Vec3& value);    ///< [x, y, z] of such lengths
+  void vector(const std::string& key, Vec3& value);   ///< [x, y, z] of plain numbers
   void colour(const std::string& key, std::array<double, 3>& value); ///< [red, green, blue], 0 to 1 each
 
   const toml::table* table(const std::string& key);               ///< null when absent
@@ -40,7 +42,7 @@ public:
 
 private:
   const toml::node* find(const std::string& key);
-  bool three(const std::string& key, std::array<double, 3>& value, const char* meaning);
+  bool three(const std::string& key, std::array<double, 3>& value, const char* meaning, bool lengths = false);
 
   const toml::table& table_;
   std::string file_, prefix_;

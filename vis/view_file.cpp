@@ -1,4 +1,4 @@
-// Views as TOML. Lengths are plain numbers in metres, angles in degrees.
+// Views as TOML. Lengths are metres or texts such as "2 cm", angles are degrees.
 
 #include "sim/base/error.h"
 #include "vis/camera.h"
@@ -21,12 +21,12 @@ void readCamera(TomlFields& fields, Camera& camera) {
   std::vector<std::string> presets = cameraPresets();
   presets.emplace_back(); // "" means the numbers
   fields.choice("preset", camera.preset, presets);
-  fields.vector("position", camera.position);
-  fields.vector("target", camera.target);
+  fields.point("position", camera.position);
+  fields.point("target", camera.target);
   fields.vector("up", camera.up);
   fields.number("view_angle", camera.viewAngle, 0.01, 170);
   fields.boolean("orthographic", camera.orthographic);
-  fields.number("orthographic_height", camera.orthographicHeight, 1e-12, 1e12);
+  fields.length("orthographic_height", camera.orthographicHeight);
   if (camera.preset.empty() && (camera.position - camera.target).norm() == 0)
     fields.fault("position", "equals the target; the camera needs a distance");
   if (camera.up.norm() == 0) fields.fault("up", "is the zero vector; give a direction");
@@ -94,7 +94,7 @@ View parseView(const std::string& toml, const std::string& nameForMessages) {
   for (const auto* clip : top.tables("clip")) {
     ClipPlane plane;
     TomlFields fields(*clip, nameForMessages, "clip.", faults);
-    fields.vector("point", plane.point);
+    fields.point("point", plane.point);
     fields.vector("normal", plane.normal);
     fields.refuseOthers();
     if (plane.normal.norm() == 0)

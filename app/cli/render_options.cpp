@@ -1,11 +1,13 @@
 #include "app/cli/render_options.h"
 
 #include "sim/base/error.h"
+#include "sim/scene/units.h"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace sandglass::cli {
 
@@ -30,14 +32,26 @@ template <class Number> std::optional<Pair<Number>> parsedPair(const std::string
 }
 
 vis::ClipPlane clipOf(const std::string& text) {
-  const std::string rule = "write the side to keep as axis, < or >, and metres, such as x>0.01 or y<0";
-  const auto value = text.size() > 2 ? parsed<double>(std::string_view(text).substr(2)) : std::nullopt;
-  if (!value || !std::isfinite(*value) || text[0] < 'x' || text[0] > 'z' ||
-      (text[1] != '<' && text[1] != '>'))
-    throw InputError(fmt::format("--clip {}: this is no clip plane; {}", text, rule));
+  const bool good = text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && (text[1] == '<' || text[1] == '>');
+  double place = std::numeric_limits<double>::quiet_NaN();
+  if (good) {
+    const std::string length = text.substr(2);
+    if (const auto metres = parsed<double>(length))
+      place = *metres;
+    else
+      try {
+        place = parseQuantity(length, "m");
+      } catch (const InputError&) { // not a length: the sentence below
+      }
+  }
+  if (!std::isfinite(place))
+    throw InputError(
+        fmt::format("--clip {}: this is no clip plane; write the side to keep as axis, < or >, and a "
+                    "length, such as y<0 or \"x>1 cm\"",
+                    text));
   vis::ClipPlane plane;
   plane.normal = Vec3::Unit(text[0] - 'x') * (text[1] == '>' ? 1 : -1);
-  plane.point = Vec3::Unit(text[0] - 'x') * *value;
+  plane.point = Vec3::Unit(text[0] - 'x') * place;
   return plane;
 }
 

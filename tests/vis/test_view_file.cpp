@@ -35,6 +35,17 @@ TEST_CASE("a view that is written and read is the same view") {
   CHECK(back.width == 641);
 }
 
+TEST_CASE("lengths of a view may carry units") {
+  const View view = parseView(
+      "[camera]\npreset = \"\"\ntarget = [\"1 cm\", 0, \"-2.5 mm\"]\northographic_height = \"4 dm\"\n"
+      "[[clip]]\npoint = [0, \"3 mm\", 0]",
+      "v.toml");
+  CHECK((view.camera.target - Vec3(0.01, 0, -0.0025)).norm() < 1e-15);
+  CHECK(view.camera.orthographicHeight == Approx(0.4));
+  REQUIRE(view.clips.size() == 1);
+  CHECK(view.clips[0].point.y() == Approx(0.003));
+}
+
 TEST_CASE("an empty view file is the default view") {
   CHECK(writeView(parseView("", "view.toml")) == writeView(View{}));
 }
@@ -53,9 +64,13 @@ TEST_CASE("each fault of a view is a sentence") {
       {"background = [1, 2, 3]", "it must be three numbers from 0 to 1, [red, green, blue]."},
       {"[camera]\npreset = \"side\"",
        "v.toml:2: camera.preset is 'side'; it must be one of: \"fit\", \"front\""},
-      {"[camera]\nposition = [0, 1]",
-       "v.toml:2: camera.position is [ 0, 1 ]; it must be three finite numbers, [x, y, z]."},
+      {"[camera]\nposition = [0, 1]", "v.toml:2: camera.position is [ 0, 1 ]; it must be three lengths, [x, "
+                                      "y, z], in metres or such as \"2 cm\"."},
       {"[camera]\npreset = \"\"\nposition = [0, 0, 0]", "v.toml:3: camera.position equals the target"},
+      {"[[clip]]\npoint = [0, \"3 kg\", 0]",
+       "v.toml:2: clip.point is [ 0, '3 kg', 0 ]; it must be three lengths"},
+      {"[camera]\northographic_height = 0",
+       "v.toml:2: camera.orthographic_height is 0; it must be a length above 0"},
       {"[camera]\nup = [0, 0, 0]", "v.toml:2: camera.up is the zero vector; give a direction."},
       {"[camera]\nview_angle = nan", "camera.view_angle is nan; it must be a number from 0.01 to 170."},
       {"[colouring]\nmap = \"jet\"", "v.toml:2: colouring.map is 'jet'; it must be one of: \"viridis\""},
