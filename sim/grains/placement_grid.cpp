@@ -9,9 +9,13 @@ namespace sandglass {
 PlacementGrid::PlacementGrid(const Domain& domain, double largestDiameter)
     : domain_(domain), length_(domain.upper - domain.lower) {
   constexpr double mostCells = 1e7; // 40 MB; larger cells in larger domains only cost time
-  const double width = std::max(largestDiameter, std::cbrt(length_.prod() / mostCells));
+  const auto cellsAcross = [&](double width) -> Vec3 { return (length_ / width).array().floor().max(1.0); };
+  double width = largestDiameter;
+  while (cellsAcross(width).prod() > mostCells)
+    width *= 1.25;
+  const Vec3 across = cellsAcross(width);
   for (std::size_t k = 0; k < 3; ++k)
-    cells_[k] = static_cast<int>(std::clamp(std::floor(length_[static_cast<int>(k)] / width), 1.0, 1e6));
+    cells_[k] = static_cast<int>(across[static_cast<int>(k)]);
   first_.assign(static_cast<std::size_t>(cells_[0]) * cells_[1] * cells_[2], -1);
 }
 

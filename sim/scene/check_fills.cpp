@@ -187,7 +187,7 @@ void checkAmounts(const Scene& scene, FaultList& faults) {
     else if (p.has("solid_fraction"))
       count = p.number("solid_fraction") * region / mixture.meanVolume();
     else if (lattice)
-      count = (p.vector("upper") - p.vector("lower")).prod() / std::pow(p.number("spacing"), 3);
+      count = ((p.vector("upper") - p.vector("lower")) / p.number("spacing")).array().max(1.0).prod();
     if (count > mostGrains) {
       const std::string rule = fmt::format(
           "{:.3g} grains would need about {:.0f} GB of memory; at most {:.0f} are allowed, so bring in fewer",
@@ -199,6 +199,13 @@ void checkAmounts(const Scene& scene, FaultList& faults) {
       continue;
     }
     if (lattice) tryPlacing(scene, f, faults);
+    if (lattice) continue;
+    const double openPart = openShare(scene, fill);
+    if (openPart <= 0) {
+      faults.about(pathOf(f),
+                   "has a region in which no point is open to grains; check the walls and the region");
+      continue;
+    }
     if (!random) continue;
     if (count < 0.5) {
       faults.wrong(
@@ -206,8 +213,7 @@ void checkAmounts(const Scene& scene, FaultList& faults) {
                            mixture.meanMass(), mixture.meanVolume()));
       continue;
     }
-    const double open = region * openShare(scene, fill);
-    const double share = open > 0 ? count * mixture.meanVolume() / open : 1;
+    const double open = region * openPart, share = count * mixture.meanVolume() / open;
     if (share > jammedSolidFraction && !p.has("solid_fraction"))
       faults.wrong(
           key,
@@ -220,9 +226,6 @@ void checkAmounts(const Scene& scene, FaultList& faults) {
           key, fmt::format(
                    "but random placement without overlap ends at {}; ask for less and let the grains settle",
                    jammedSolidFraction));
-    else if (open <= 0)
-      faults.about(pathOf(f),
-                   "has a region in which no point is open to grains; check the walls and the region");
   }
 }
 

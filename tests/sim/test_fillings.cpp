@@ -304,3 +304,11 @@ TEST_CASE("size ranges give the moments of a species", "[filling]") {
   CHECK(range.meanDiameter == Approx(1.2e-3));
   CHECK(range.meanMass == Approx(2500 * std::numbers::pi / 6 * 1.92e-9));
 }
+
+TEST_CASE("wide flat domains take no undue memory", "[filling]") {
+  // 100 m by 100 m by 5 mm: a billion cells of one diameter would take 4 GB.
+  const Scene scene =
+      boxScene(R"(["x", "y"])", "[[fill]]\nkind = \"random\"\nnumber = 1000\nspecies = \"bead\"\n",
+               R"(["100 m", "100 m", "5 mm"])");
+  CHECK(deepestOverlap(scene, placeGrains(scene, "run", 0, {})) <= 0);
+}
