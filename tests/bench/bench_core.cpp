@@ -55,7 +55,8 @@ grains = [{{ position = ["2 mm", "2 mm", "2 mm"], species = "bead" }}]
 name = "run"
 until = {{ duration = "1 s" }}
 )",
-                                width, friction ? R"({ law = "spring", friction = 0.5 })" : R"({ law = "none" })"),
+                                width,
+                                friction ? R"({ law = "spring", friction = 0.5 })" : R"({ law = "none" })"),
                     "bench");
 }
 
@@ -73,12 +74,15 @@ std::vector<GrainSeed> bed(int across, int layers) {
   return seeds;
 }
 
-double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double cpuSeconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 std::string hashOf(const Solver& solver) {
   std::vector<double> all;
   for (const GrainSeed& s : solver.present())
-    for (const Vec3* v : {&s.position, &s.velocity, &s.spin}) all.insert(all.end(), v->data(), v->data() + 3);
+    for (const Vec3* v : {&s.position, &s.velocity, &s.spin})
+      all.insert(all.end(), v->data(), v->data() + 3);
   return fmt::format("{:016x}", XXH3_64bits(all.data(), all.size() * sizeof(double)));
 }
 
@@ -90,18 +94,24 @@ std::string row(const std::string& name, DemSolver& solver, int threads, std::in
   const double spentCpu = cpuSeconds() - cpu;
   const std::chrono::duration<double> spentWall = std::chrono::steady_clock::now() - wall;
   const double grainSteps = static_cast<double>(solver.grains()) * static_cast<double>(steps);
-  fmt::print(stderr, "{}: {:.2f} million grain-steps per wall second, {:.2f} pairs listed a grain, a list lasts {:.0f} steps\n", name,
-             grainSteps / spentWall.count() / 1e6, static_cast<double>(solver.pairsListed()) / static_cast<double>(solver.grains()),
-             static_cast<double>(steps) / static_cast<double>(std::max<std::int64_t>(1, solver.rebuilds() - rebuilds)));
-  return fmt::format("{},sandglass,{},double,{},{},{:.3f},{:.3f},{:.4g},{:.0f},{}\n", name, threads, solver.grains(), steps, spentCpu,
-                     spentWall.count(), grainSteps / spentCpu, solver.bytesPerGrain(), hashOf(solver));
+  fmt::print(stderr,
+             "{}: {:.2f} million grain-steps per wall second, {:.2f} pairs listed a grain, a list lasts "
+             "{:.0f} steps\n",
+             name, grainSteps / spentWall.count() / 1e6,
+             static_cast<double>(solver.pairsListed()) / static_cast<double>(solver.grains()),
+             static_cast<double>(steps) /
+                 static_cast<double>(std::max<std::int64_t>(1, solver.rebuilds() - rebuilds)));
+  return fmt::format("{},sandglass,{},double,{},{},{:.3f},{:.3f},{:.4g},{:.0f},{}\n", name, threads,
+                     solver.grains(), steps, spentCpu, spentWall.count(), grainSteps / spentCpu,
+                     solver.bytesPerGrain(), hashOf(solver));
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
   const std::string file = argc > 2 && std::string(argv[1]) == "--csv" ? argv[2] : "";
-  std::string csv = "case,program,threads,precision,grains,steps,cpu_s,wall_s,grain_steps_per_cpu_s,bytes_per_grain,check\n";
+  std::string csv = "case,program,threads,precision,grains,steps,cpu_s,wall_s,grain_steps_per_cpu_s,bytes_"
+                    "per_grain,check\n";
   for (const bool friction : {true, false})
     for (const int threads : {1, 2}) {
       const int across = 20, layers = 25;

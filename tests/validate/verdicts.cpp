@@ -9,8 +9,8 @@ namespace sandglass::validate {
 std::string csv(const std::vector<Row>& rows) {
   std::string text = "case,quantity,ours,uncertainty,expected,tolerance,source,verdict\n";
   for (const Row& r : rows)
-    text += fmt::format("{},{},{:.5g},{:.3g},{},{},\"{}\",{}\n", r.testCase, r.quantity, r.ours, r.uncertainty, r.expected, r.tolerance,
-                        r.source, r.ok ? "ok" : "off");
+    text += fmt::format("{},{},{:.5g},{:.3g},{},{},\"{}\",{}\n", r.testCase, r.quantity, r.ours,
+                        r.uncertainty, r.expected, r.tolerance, r.source, r.ok ? "ok" : "off");
   return text;
 }
 

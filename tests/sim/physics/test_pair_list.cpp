@@ -26,7 +26,7 @@ GrainStore randomGrains(int n, const Domain& domain, double smallest, double lar
     store.place[i] = {x.x(), x.y(), x.z(), random.uniform(smallest, largest)};
     store.motion[i].w = 1.0;
     store.listed[i].w = allowed * i / n; // unequal allowances
-    store.id[i] = (i * 7919) % n; // ids in another order than storage
+    store.id[i] = (i * 7919) % n;        // ids in another order than storage
   }
   return store;
 }
