@@ -10,7 +10,9 @@
 namespace sandglass::analysis {
 
 double meanDiameter(const Frame& frame) {
-  if (!frame.scalars.contains(quantity::radius) || frame.size() == 0)
+  if (frame.size() == 0)
+    throw InputError(fmt::format("the frame at {:.6g} s has no grains: choose other frames", frame.time));
+  if (!frame.scalars.contains(quantity::radius))
     throw InputError(fmt::format(
         "the frame at {:.6g} s has no grain radii, which this analysis needs: give --diameter", frame.time));
   const auto& radius = frame.scalar(quantity::radius);

@@ -35,10 +35,11 @@ Region::Region(const Frame& frame, const RegionOptions& options) : domain_(frame
       const double along = surface_->axes().up[k];
       if (domain_.periodic[k] || std::abs(along) != 1) continue;
       const double top = surface_->highest() - options.surfaceMargin;
+      // Without any surface (no grain at rest on others) the box is empty.
       if (along > 0)
-        upper[k] = std::min(upper[k], top);
+        upper[k] = std::max(lower[k], std::min(upper[k], top));
       else
-        lower[k] = std::max(lower[k], -top);
+        lower[k] = std::min(upper[k], std::max(lower[k], -top));
     }
   }
   if (options.up && options.closeGates) {

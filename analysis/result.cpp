@@ -41,8 +41,8 @@ nlohmann::json axisJson(const Axis& axis) {
 // fmt's "{}" prints the shortest digits that read back as the same double.
 
 std::string toCsv(const Curve& curve) {
-  std::string out = comment("title", curve.title) + comment("definition", curve.definition) +
-                    comment("frames", fmt::format("{}", curve.frames));
+  std::string out = comment("title", curve.title) + comment("definition", curve.definition);
+  if (curve.frames > 0) out += comment("frames", fmt::format("{}", curve.frames));
   for (const auto& [key, value] : curve.numbers)
     out += comment(key, fmt::format("{}", value));
   for (const auto& mark : curve.marks)

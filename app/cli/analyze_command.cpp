@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace sandglass::cli {
 
@@ -59,17 +60,21 @@ bool gatesClosed(const Frame& frame) {
   return std::all_of(frame.walls.begin(), frame.walls.end(), [](const FrameWall& w) { return w.active; });
 }
 
-/// The frames asked for; by default the last one with all gates closed (the settled bed), or the last of all.
-std::pair<std::size_t, std::size_t> framesFor(const Source& source, const AnalyzeOptions& options) {
-  const std::size_t count = source.frames->size();
-  if (!options.frames.empty()) return frameRange(options.frames, count, source.path.string());
-  // Gates open once, so closed frames come first.
-  std::size_t closed = 0, beyond = count;
+/// The last frame with all gates closed (the settled bed), or the last of all. Gates open once, so closed
+/// frames come first.
+std::size_t settledFrame(const Source& source) {
+  std::size_t closed = 0, beyond = source.frames->size();
   while (closed + 1 < beyond) {
     const std::size_t middle = (closed + beyond) / 2;
     (gatesClosed(*source.frames->load(middle)) ? closed : beyond) = middle;
   }
-  return {closed, closed};
+  return closed;
+}
+
+std::pair<std::size_t, std::size_t> framesFor(const Source& source, const AnalyzeOptions& options) {
+  if (!options.frames.empty()) return frameRange(options.frames, source.frames->size(), source.path.string());
+  const std::size_t settled = settledFrame(source);
+  return {settled, settled};
 }
 
 RegionOptions regionFor(const Source& source, const AnalyzeOptions& options, double diameter) {
@@ -186,7 +191,8 @@ double flowingDensity(const Source& source, const AnalyzeOptions& options) {
 /// The law beside one run's rate, per depth for a slot.
 void compareWithBeverloo(const Source& source, const AnalyzeOptions& options, Curve& curve) {
   if (!source.facts.shape || !(source.facts.gravity > 0)) return;
-  const double d = diameterFor(options, *source.frames->load(0)), rho = flowingDensity(source, options);
+  const double d = diameterFor(options, *source.frames->load(settledFrame(source))),
+               rho = flowingDensity(source, options);
   const bool slot = *source.facts.shape == OutletShape::slot;
   if (slot && !curve.numbers.contains("depth")) return;
   const double depth = slot ? curve.numbers.at("depth") : 1;
@@ -244,7 +250,7 @@ void analyzeBeverloo(const std::vector<Source>& sources, const AnalyzeOptions& o
     points.push_back({source.facts.outlet, fit.rate / depth, fit.standardError / depth});
   }
   const Source& first = sources[0];
-  const FramePtr frame = first.frames->load(0);
+  const FramePtr frame = first.frames->load(settledFrame(first));
   const double d = diameterFor(options, *frame), rho = flowingDensity(first, options);
   const BeverlooFit fit = fitBeverloo(points, *first.facts.shape, d, rho, first.facts.gravity);
   Curve curve = beverlooCurve(points, fit, *first.facts.shape, d, rho, first.facts.gravity);
@@ -262,8 +268,13 @@ int analyze(AnalyzeOptions options) {
       options.gr || options.packing || options.discharge || options.energies || options.beverloo;
   if (!chosen) options.all = true;
   std::vector<Source> sources;
-  for (const auto& text : options.sources)
+  std::map<std::string, int> used;
+  for (const auto& text : options.sources) {
     sources.push_back(openSource(text, options.sources.size() > 1));
+    // Two runs called "run" in different folders must not overwrite each other's files.
+    std::string& prefix = sources.back().prefix;
+    if (const int before = used[prefix]++; before > 0) prefix = fmt::format("{}{}_", prefix, before + 1);
+  }
   ResultFiles files(options.folder, options.csvOnly);
 
   // What was asked for by name is an error when it cannot be had; what --all tries is left out with the

@@ -106,3 +106,27 @@ TEST_CASE("the guard zone gives 1 as well", "[gr][uniform]") {
   CHECK(verdict.probability > 0.001);
   CHECK(verdict.probability < 0.999);
 }
+
+TEST_CASE("uniform points under a free surface give 1", "[gr][uniform]") {
+  // An open box: the height field is found from the points themselves, and W ends two diameters below it.
+  const Vec3 size(1, 1, 1.2);
+  const FrameWall box = sceneWall(
+      "box", {{"lower", Vec3(0, 0, 0)}, {"upper", Vec3(1, 1, 3)}, {"open", std::vector<std::string>{"z+"}}});
+  std::vector<std::vector<double>> replicates;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Frame frame = uniformFrame(1500, size, {false, false, false}, 0.05, {box}, 300 + seed);
+    frame.domain.upper.z() = 3;
+    PairCorrelationOptions options;
+    options.region.up = Vec3::UnitZ();
+    options.rMax = 0.5;
+    options.bins = 20;
+    options.directions = 16;
+    options.seed = 1 + seed;
+    replicates.push_back(pairCorrelation(frame, options).g.series[0].y);
+  }
+  const Verdict verdict = judge(replicates);
+  INFO("worst bin " << verdict.worst << " sigma, chi-squared probability " << verdict.probability);
+  CHECK(verdict.worst < 4.5);
+  CHECK(verdict.probability > 0.001);
+  CHECK(verdict.probability < 0.999);
+}

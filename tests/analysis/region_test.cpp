@@ -150,6 +150,16 @@ TEST_CASE("nothing below an opened gate counts", "[region]") {
   CHECK(Region(frame, options).volume().value == Approx(3));
 }
 
+TEST_CASE("grains all in flight have no surface and no region", "[region][surface]") {
+  for (const double sign : {1.0, -1.0}) {
+    Frame frame = frameOf({Vec3(1, 1, 1), Vec3(5, 5, 5)}, Vec3(9, 9, 9), {true, true, false}, 0.5);
+    RegionOptions options = clearance(0.5);
+    options.up = sign * Vec3::UnitZ();
+    options.diameter = 1;
+    CHECK(Region(frame, options).volume().value == 0);
+  }
+}
+
 TEST_CASE("a region without bounds is refused", "[region]") {
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK_THROWS_WITH(Region(empty(Vec3(1, 1, infinity), {true, true, false}, {}), clearance(0.1)),
