@@ -24,7 +24,10 @@ enum class Side { left, centre, right };
 
 float scaleOf(const OverlayContent& c) {
   // Small pictures get relatively larger writing, or nobody could read it.
-  return std::pow(std::min(static_cast<float>(c.width) / 1280, static_cast<float>(c.height) / 720), 0.8F);
+  const auto finer = static_cast<float>(c.supersampling);
+  return finer *
+         std::pow(std::min(static_cast<float>(c.width) / 1280, static_cast<float>(c.height) / 720) / finer,
+                  0.8F);
 }
 
 void write(vtkContext2D* painter, const OverlayContent& c, float x, float y, const std::string& text,

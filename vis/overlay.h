@@ -27,8 +27,9 @@ struct OverlayContent {
   std::optional<CameraAxes> axes; ///< directions as seen by this camera
   double metresPerPixel = 0;      ///< at the target; 0: no scale bar
   std::array<double, 3> background{1, 1, 1};
-  bool backed = true; ///< a veil of the background behind title and time
-  int width = 0, height = 0;
+  bool backed = true;        ///< a veil of the background behind title and time
+  int width = 0, height = 0; ///< of what is painted
+  int supersampling = 1;     ///< painted pixels for each pixel of the picture, in each direction
 };
 
 /// The part of the picture that the writing leaves free. `titled`: whether there is a title.

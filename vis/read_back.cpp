@@ -40,4 +40,28 @@ Image withoutGround(const Image& onBlack, const Image& onWhite) {
   return image;
 }
 
+Image halved(const Image& image) {
+  Image result{image.width / 2, image.height / 2, {}};
+  result.rgba.resize(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height) * 4);
+  const auto row = static_cast<std::size_t>(image.width) * 4;
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x) {
+      const std::uint8_t* corner =
+          &image.rgba[2 * static_cast<std::size_t>(y) * row + 8 * static_cast<std::size_t>(x)];
+      int sum[4] = {};
+      for (const std::uint8_t* p : {corner, corner + 4, corner + row, corner + row + 4}) {
+        for (int k = 0; k < 3; ++k)
+          sum[k] += p[k] * p[3];
+        sum[3] += p[3];
+      }
+      std::uint8_t* out = &result.rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) +
+                                        static_cast<std::size_t>(x)) *
+                                       4];
+      for (int k = 0; k < 3; ++k)
+        out[k] = static_cast<std::uint8_t>(sum[3] == 0 ? 0 : (sum[k] + sum[3] / 2) / sum[3]);
+      out[3] = static_cast<std::uint8_t>((sum[3] + 2) / 4);
+    }
+  return result;
+}
+
 } // namespace sandglass::vis

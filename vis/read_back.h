@@ -14,4 +14,7 @@ Image readBack(vtkRenderWindow* window);
 /// 1 - opacity. Exact for lines, text and translucent walls alike.
 Image withoutGround(const Image& onBlack, const Image& onWhite);
 
+/// Half as wide and high, by the mean of four pixels, weighed by opacity.
+Image halved(const Image& image);
+
 } // namespace sandglass::vis

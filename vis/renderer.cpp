@@ -144,7 +144,6 @@ struct Renderer::Impl {
     scene->AddActor(grains.actor());
     for (vtkActor* actor : walls.actors())
       scene->AddActor(actor);
-    scene->UseFXAAOn();
     overlayActor->GetScene()->AddItem(overlay);
     overlayActor->GetScene()->SetRenderer(scene);
     scene->AddActor(overlayActor);
@@ -194,7 +193,7 @@ struct Renderer::Impl {
       return readBack(window);
     };
     if (!view.transparentBackground) return on(view.background);
-    return withoutGround(on({0, 0, 0}), on({1, 1, 1}));
+    return halved(withoutGround(on({0, 0, 0}), on({1, 1, 1})));
   }
 
   vtkSmartPointer<ExternalWindow> window;
@@ -231,8 +230,12 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   const Eigen::AlignedBox3d box = domainBox(frame);
 
   OverlayContent& over = d.overlay->content;
-  over.width = view.width;
-  over.height = view.height;
+  // FXAA smooths edges by their contrast with the ground, which a transparent picture does not have: such a
+  // picture is drawn twice as large instead.
+  const int finer = view.transparentBackground ? 2 : 1;
+  over.supersampling = finer;
+  over.width = finer * view.width;
+  over.height = finer * view.height;
   over.background = view.background;
   over.backed = !view.transparentBackground;
   const auto sceneTitle = frame.provenance.find("title");
@@ -241,13 +244,14 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   over.legend = view.legend && view.grains ? colours.legend : std::nullopt;
   d.camera = fitCamera(frame, view, grainBox(frame));
   over.axes = view.axes ? std::optional(axesOf(d.camera)) : std::nullopt;
-  over.metresPerPixel = view.scaleBar ? heightAtTarget(d.camera) / view.height : 0;
+  over.metresPerPixel = view.scaleBar ? heightAtTarget(d.camera) / over.height : 0;
 
   const std::lock_guard lock(vtkTurn());
   d.window->MakeCurrent();
-  d.window->SetSize(view.width, view.height);
+  d.window->SetSize(over.width, over.height);
+  d.scene->SetUseFXAA(finer == 1);
   d.grains.show(d.visible, subset, colours.ofGrain);
-  d.walls.show(frame, view, box);
+  d.walls.show(frame, view, box, static_cast<float>(finer));
   d.setCamera(box);
   d.overlay->Modified();
   d.scene->DrawOn();

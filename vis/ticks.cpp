@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace sandglass::vis {
@@ -48,8 +50,14 @@ Ticks niceTicks(double low, double high, int wanted) {
 }
 
 std::string axisTitle(const std::string& name, const std::string& unit, int exponent) {
-  std::string inside = exponent == 0 ? "" : "10" + superscript(exponent);
-  if (!unit.empty()) inside += (inside.empty() ? "" : " ") + unit;
+  static const std::set<std::string> takePrefix{"m", "s", "N", "J", "W", "Pa", "Hz"};
+  static const std::map<int, std::string> prefixes{{-9, "n"}, {-6, "µ"}, {-3, "m"},
+                                                   {3, "k"},  {6, "M"},  {9, "G"}};
+  std::string inside = unit;
+  if (const auto prefix = prefixes.find(exponent); prefix != prefixes.end() && takePrefix.contains(unit))
+    inside = prefix->second + unit;
+  else if (exponent != 0)
+    inside = "10" + superscript(exponent) + (unit.empty() ? "" : " ") + unit;
   return inside.empty() ? name : name + " [" + inside + "]";
 }
 

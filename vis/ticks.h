@@ -15,7 +15,8 @@ struct Ticks {
 /// About `wanted` ticks between low and high; a single one when the range is empty.
 Ticks niceTicks(double low, double high, int wanted);
 
-/// "name [unit]", with the power of ten of the ticks: "speed [10⁻³ m/s]".
+/// "name [unit]", with the power of ten of the ticks as a prefix or a factor: "energy [µJ]", "speed [10⁻³
+/// m/s]".
 std::string axisTitle(const std::string& name, const std::string& unit, int exponent);
 
 /// The largest 1, 2 or 5 times a power of ten that does not exceed `limit` (> 0).

@@ -7,7 +7,9 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
+#include <vtkShaderProperty.h>
 
 #include <algorithm>
 
@@ -42,17 +44,23 @@ void clip(vtkActor* actor, const std::vector<ClipPlane>& clips) {
 WallLayer::WallLayer() {
   for (vtkActor* actor : actors())
     giveMapper(actor);
-  faces_->GetProperty()->SetAmbient(0.45);
-  faces_->GetProperty()->SetDiffuse(0.55);
-  faces_->GetProperty()->SetInterpolationToFlat();
+  // One colour whatever the light: then the order in which translucent faces are blended does not matter.
+  faces_->GetProperty()->SetAmbient(1);
+  faces_->GetProperty()->SetDiffuse(0);
+  faces_->GetProperty()->SetInterpolationToPhong();
+  // Like glass: clear where looked through squarely, denser towards the rim.
+  faces_->GetShaderProperty()->AddFragmentShaderReplacement(
+      "//VTK::Light::Impl", true,
+      "//VTK::Light::Impl\n"
+      "  float slant = 1.0 - abs(normalVCVSOutput.z);\n"
+      "  fragOutput0.a = min(1.0, fragOutput0.a * (0.6 + 2.4 * slant * slant));\n",
+      false);
   faces_->ForceTranslucentOn();
   for (vtkActor* lines : {edges_.Get(), box_.Get()})
     lines->GetProperty()->LightingOff();
-  edges_->GetProperty()->SetLineWidth(1.6F);
-  box_->GetProperty()->SetLineWidth(1.0F);
 }
 
-void WallLayer::show(const Frame& frame, const View& view, const Eigen::AlignedBox3d& box) {
+void WallLayer::show(const Frame& frame, const View& view, const Eigen::AlignedBox3d& box, float lineScale) {
   std::vector<std::shared_ptr<const WallShape>> wanted;
   if (view.walls)
     for (const auto& wall : frame.walls)
@@ -65,8 +73,14 @@ void WallLayer::show(const Frame& frame, const View& view, const Eigen::AlignedB
     const auto ink = inkOn(view.background, strength);
     actor->GetProperty()->SetColor(ink[0], ink[1], ink[2]);
   };
+  edges_->GetProperty()->SetLineWidth(1.6F * lineScale);
+  box_->GetProperty()->SetLineWidth(1.0F * lineScale);
   faces_->GetProperty()->SetOpacity(view.wallOpacity);
-  paint(faces_, 0.5);
+  const bool light = inkOn(view.background, 1)[0] < 0.5; // the ground is light
+  if (light)
+    faces_->GetProperty()->SetColor(0.32, 0.42, 0.52);
+  else
+    faces_->GetProperty()->SetColor(0.66, 0.76, 0.86);
   paint(edges_, 0.75);
   paint(box_, 0.25);
   const auto& periodic = frame.domain.periodic;
@@ -106,6 +120,14 @@ void WallLayer::rebuild(const Eigen::AlignedBox3d& box) {
     data->Modified();
   };
   fill(faces_, points, triangles, nullptr);
+  if (points->GetNumberOfPoints() > 0) { // curved walls are round, edges stay sharp
+    vtkNew<vtkPolyDataNormals> normals;
+    normals->SetInputData(dataOf(faces_));
+    normals->SetFeatureAngle(30);
+    normals->ConsistencyOff();
+    normals->Update();
+    dataOf(faces_)->ShallowCopy(normals->GetOutput());
+  }
   fill(edges_, points, nullptr, lines);
 
   vtkNew<vtkPoints> corners;

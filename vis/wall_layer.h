@@ -20,7 +20,8 @@ public:
   WallLayer();
   std::vector<vtkActor*> actors() const { return {faces_, edges_, box_}; }
 
-  void show(const Frame& frame, const View& view, const Eigen::AlignedBox3d& box);
+  /// `lineScale`: width of lines relative to a picture of usual size.
+  void show(const Frame& frame, const View& view, const Eigen::AlignedBox3d& box, float lineScale);
 
 private:
   void rebuild(const Eigen::AlignedBox3d& box);
