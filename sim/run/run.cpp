@@ -36,9 +36,9 @@ struct Run::Impl {
   std::unique_ptr<StageControl> stages;
   std::map<std::string, std::string> provenance;
 
-  double computing = 0, grainSteps = 0; ///< [s wall] in the solver, and what it did
-  double startFraction = 0;
-  double groupSteps = 1; ///< steps that take about longestGroup
+  double computing = 0, grainSteps = 0;       ///< [s wall] in the solver, and what it did
+  double startFraction = 0, checkpointed = 0; ///< the latter in `computing` seconds
+  double groupSteps = 1;                      ///< steps that take about longestGroup
   Clock::time_point lastProgress, lastLive;
   double progressComputing = 0, progressGrainSteps = 0; ///< at the last progress report
 
@@ -75,7 +75,10 @@ struct Run::Impl {
     return copy;
   }
 
-  void checkpoint() { recorder->checkpoint(*solver, {{stageKey, stages->save()}}); }
+  void checkpoint() {
+    recorder->checkpoint(*solver, {{stageKey, stages->save()}});
+    checkpointed = computing;
+  }
 
   void advance(std::int64_t steps) {
     const auto start = Clock::now();
@@ -143,6 +146,9 @@ RunOutcome Run::execute() {
     const std::string sentence = fmt::format("{}; {}", error.what(), run.recorder->lastCheckpoint());
     report(run.recorder->log(), LogLevel::error, sentence);
     throw RunError(sentence);
+  } catch (const InputError& error) { // grains of a later stage that do not fit
+    report(run.recorder->log(), LogLevel::error, error.what());
+    throw;
   }
 }
 
@@ -173,10 +179,10 @@ RunOutcome Run::loop() {
   }
   live(true);
   bool shown = false; // the state in which the run was paused
-  std::int64_t checkpointed = solver.step();
+  std::int64_t safeStep = solver.step();
   while (!stages.done()) {
     if (stop_) {
-      if (checkpointed != solver.step()) run.checkpoint();
+      if (safeStep != solver.step()) run.checkpoint();
       run.reportProgress(onProgress, true);
       return RunOutcome::stopped;
     }
@@ -203,9 +209,10 @@ RunOutcome Run::loop() {
     recorder.sample(solver, stages.done(), onSample);
     if (recorder.frameDue(solver.step()) || stages.done()) save();
     if (!stages.done()) stages.begin();
-    if (recorder.checkpointDue(solver.step()) || stages.done()) {
+    const bool overdue = run.computing - run.checkpointed >= run.options.checkpointWallInterval;
+    if (recorder.checkpointDue(solver.step()) || stages.done() || overdue) {
       run.checkpoint();
-      checkpointed = solver.step();
+      safeStep = solver.step();
     }
     live(false);
     run.reportProgress(onProgress, stages.done());

@@ -26,7 +26,9 @@ struct RunOptions {
   bool resume = false;          ///< go on from the newest checkpoint in `folder`; from the start if none
   bool overwrite = false;       ///< delete the run that `folder` holds; else a run there is refused
   double liveInterval = 0;      ///< [s wall], offer a Frame to onLiveFrame at most this often; 0: never
-  SolverFactory solverFactory;  ///< empty: makeSolver
+  double checkpointWallInterval =
+      600;                     ///< [s wall] of computing at most between checkpoints; no bit depends on it
+  SolverFactory solverFactory; ///< empty: makeSolver
 };
 
 /// What one probe saw at one time. series.csv has a column `<probe>.<value>` for each.

@@ -62,16 +62,17 @@ RunRecorder::RunRecorder(const Scene& scene, const RunOptions& options, double s
 }
 
 void RunRecorder::prepareFolder(const RunOptions& options) {
-  const bool occupied = holdsRun(folder_);
-  if (occupied && !options.resume && !options.overwrite)
-    throw InputError(fmt::format("{}: this folder already holds a run; go on with it (--resume), replace it "
-                                 "(--overwrite) or choose another folder (-o)",
-                                 folder_.string()));
   std::error_code fault;
   fs::create_directories(folder_, fault);
   if (fault)
     throw InputError(
         fmt::format("{}: the folder of the run cannot be made ({})", folder_.string(), fault.message()));
+  lock_.emplace(folder_);
+  const bool occupied = holdsRun(folder_);
+  if (occupied && !options.resume && !options.overwrite)
+    throw InputError(fmt::format("{}: this folder already holds a run; go on with it (--resume), replace it "
+                                 "(--overwrite) or choose another folder (-o)",
+                                 folder_.string()));
   if (occupied && options.resume) {
     const fs::path kept = folder_ / "scene.toml";
     if (fs::exists(kept) && sceneHash(readScene(kept.string())) != sceneHash(scene_))

@@ -5,6 +5,7 @@
 #include "sim/base/log.h"
 #include "sim/io/series.h"
 #include "sim/run/checkpoint_store.h"
+#include "sim/run/folder_lock.h"
 #include "sim/run/frame_queue.h"
 #include "sim/run/probe.h"
 #include "sim/run/run.h"
@@ -60,6 +61,7 @@ private:
   std::shared_ptr<std::ofstream> logFile_;
   Schedule frames_, checkpoints_;
   std::vector<Entry> probes_;
+  std::optional<FolderLock> lock_;
   std::optional<CheckpointStore> store_;
   std::optional<SeriesWriter> series_;
   std::optional<FrameQueue> queue_;

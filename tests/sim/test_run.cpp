@@ -215,6 +215,23 @@ TEST_CASE("Resuming a finished run changes nothing; another scene is refused", "
   CHECK_THROWS_WITH(Run(other, o).execute(), Contains("was made from another scene"));
 }
 
+TEST_CASE("Two runs cannot share a folder at a time", "[run]") {
+  const TemporaryFolder folder("lock");
+  Run first(ballisticScene(), options(folder / "r"));
+  std::string refusal;
+  first.onSample = [&](const ProbeSample&) {
+    auto o = options(folder / "r");
+    o.resume = true;
+    try {
+      if (refusal.empty()) Run(ballisticScene(), o).execute();
+    } catch (const InputError& error) {
+      refusal = error.what();
+    }
+  };
+  CHECK(first.execute() == RunOutcome::finished);
+  CHECK_THAT(refusal, Contains("another run is going on in this folder"));
+}
+
 TEST_CASE("Checkpoints: the two newest and at most twenty-one spaced ones stay", "[run]") {
   const TemporaryFolder folder("spaced");
   Scene scene = ballisticScene();
