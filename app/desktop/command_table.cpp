@@ -1,0 +1,88 @@
+#include "app/desktop/command_table.h"
+
+#include <QMenu>
+
+namespace sandglass::desktop {
+
+namespace {
+
+QString keysOf(const Command& row) {
+  QStringList keys;
+  for (const auto& key : row.keys)
+    keys << key.toString(QKeySequence::NativeText);
+  return keys.join(" or ");
+}
+
+QString plain(QString name) {
+  return name.remove('&').remove("...");
+}
+
+QString line(const QString& what, const QString& how) {
+  return QString(
+             "<tr><td style='padding:2px 22px 2px 0'>%1</td><td style='padding:2px 0'><b>%2</b></td></tr>")
+      .arg(what.toHtmlEscaped(), how.toHtmlEscaped());
+}
+
+} // namespace
+
+CommandTable::CommandTable(QWidget* window, std::vector<Command> rows) : rows_(std::move(rows)) {
+  for (const auto& row : rows_) {
+    auto* action = new QAction(row.icon, row.name, window);
+    action->setObjectName(row.id);
+    action->setShortcuts(row.keys);
+    action->setCheckable(row.checkable);
+    action->setChecked(row.checked);
+    const QString keys = keysOf(row);
+    action->setToolTip(keys.isEmpty() ? row.toolTip : QString("%1 (%2)").arg(row.toolTip, keys));
+    action->setStatusTip(row.toolTip);
+    QObject::connect(action, &QAction::triggered, window, row.perform);
+    window->addAction(action);
+    actions_[row.id] = action;
+  }
+}
+
+QAction* CommandTable::action(const QString& id) const {
+  return actions_.at(id);
+}
+
+void CommandTable::fill(QMenuBar* bar) const {
+  std::map<QString, QMenu*> menus;
+  for (const auto& row : rows_) {
+    QMenu*& menu = menus[row.menu];
+    if (!menu) {
+      menu = bar->addMenu(row.menu);
+      menu->setToolTipsVisible(true);
+    }
+    if (row.beginsGroup) menu->addSeparator();
+    menu->addAction(actions_.at(row.id));
+  }
+}
+
+void CommandTable::fill(QToolBar* bar) const {
+  QString menu;
+  for (const auto& row : rows_) {
+    if (!row.inToolBar) continue;
+    if (!menu.isEmpty() && menu != row.menu) bar->addSeparator();
+    menu = row.menu;
+    bar->addAction(actions_.at(row.id));
+  }
+}
+
+QString CommandTable::cheatSheet(const std::vector<std::pair<QString, QString>>& gestures) const {
+  QStringList menus;
+  for (const auto& row : rows_)
+    if (!row.keys.isEmpty() && !menus.contains(row.menu)) menus << row.menu;
+  QString html;
+  for (const auto& menu : menus) {
+    html += QString("<h3>%1</h3><table>").arg(plain(menu).toHtmlEscaped());
+    for (const auto& row : rows_)
+      if (row.menu == menu && !row.keys.isEmpty()) html += line(plain(row.name), keysOf(row));
+    html += "</table>";
+  }
+  html += "<h3>Mouse</h3><table>";
+  for (const auto& [what, how] : gestures)
+    html += line(what, how);
+  return html + "</table>";
+}
+
+} // namespace sandglass::desktop

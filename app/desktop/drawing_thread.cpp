@@ -1,0 +1,182 @@
+#include "app/desktop/drawing_thread.h"
+
+#include "app/desktop/background.h"
+#include "sim/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sandglass::desktop {
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+constexpr double shortestInterval = 0.2; ///< [s] between pictures while a simulation runs
+constexpr double chartInterval = 1.0;    ///< [s] between charts while a simulation runs
+constexpr double share = 0.5;            ///< of one core, for drawing while a simulation runs
+constexpr int nice = 3;                  ///< enough to let the simulation go first, too little to starve
+
+} // namespace
+
+QImage toQImage(vis::Image image) {
+  auto* owner = new vis::Image(std::move(image));
+  const QImage borrowed(
+      owner->rgba.data(), owner->width, owner->height, owner->width * 4, QImage::Format_RGBA8888,
+      [](void* p) { delete static_cast<vis::Image*>(p); }, owner);
+  return borrowed.convertToFormat(QImage::Format_RGB32);
+}
+
+DrawingThread::DrawingThread(vis::GlBackend backend) : thread_([this, backend] { work(backend); }) {}
+
+DrawingThread::~DrawingThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void DrawingThread::draw(PictureOrder order) {
+  const std::lock_guard lock(mutex_);
+  picture_ = std::move(order);
+  changed_.notify_all();
+}
+
+void DrawingThread::drawChart(const QString& panel, analysis::Curve curve, QSize pixels) {
+  const std::lock_guard lock(mutex_);
+  charts_[panel] = {std::move(curve), pixels};
+  changed_.notify_all();
+}
+
+void DrawingThread::pick(QPoint pixel) {
+  const std::lock_guard lock(mutex_);
+  pick_ = pixel;
+  changed_.notify_all();
+}
+
+void DrawingThread::save(PictureFile file) {
+  const std::lock_guard lock(mutex_);
+  files_.push_back(std::move(file));
+  changed_.notify_all();
+}
+
+void DrawingThread::setSimulationRuns(bool runs) {
+  const std::lock_guard lock(mutex_);
+  simulationRuns_ = runs;
+  if (!runs) pictureFrom_ = chartFrom_ = {};
+  changed_.notify_all();
+}
+
+void DrawingThread::work(vis::GlBackend backend) {
+  lowerPriority(nice); // before the context, whose threads inherit it
+  std::unique_ptr<vis::Renderer> renderer;
+  try {
+    renderer = std::make_unique<vis::Renderer>(backend);
+    Q_EMIT started(QString::fromStdString(renderer->backendName()));
+  } catch (const std::exception& e) {
+    Q_EMIT failed(QString::fromUtf8(e.what()));
+    return;
+  }
+  while (const auto task = nextTask()) {
+    const auto start = Clock::now();
+    const double used = threadSeconds();
+    try {
+      (*task)(*renderer);
+    } catch (const std::exception& e) {
+      Q_EMIT failed(QString::fromUtf8(e.what()));
+    }
+    rest(Seconds(Clock::now() - start).count(), threadSeconds() - used);
+  }
+}
+
+void DrawingThread::rest(double seconds, double processorSeconds) {
+  const std::lock_guard lock(mutex_);
+  if (!simulationRuns_) return;
+  const auto now = Clock::now();
+  const auto after = [&](double s) { return now + std::chrono::duration_cast<Clock::duration>(Seconds(s)); };
+  const double pause = std::max(processorSeconds * (1 / share - 1), shortestInterval - seconds);
+  pictureFrom_ = std::max(pictureFrom_, after(pause));
+  if (chartLast_) chartFrom_ = after(chartInterval);
+}
+
+std::optional<DrawingThread::Task> DrawingThread::nextTask() {
+  std::unique_lock lock(mutex_);
+  while (!quit_) {
+    if (auto task = dueTask(Clock::now())) return task;
+    const auto due = nextDue();
+    if (due == Clock::time_point::max())
+      changed_.wait(lock);
+    else
+      changed_.wait_until(lock, due);
+  }
+  return std::nullopt;
+}
+
+DrawingThread::Clock::time_point DrawingThread::nextDue() const {
+  auto due = Clock::time_point::max();
+  if (picture_) due = std::min(due, pictureFrom_);
+  if (!charts_.empty()) due = std::min(due, std::max(pictureFrom_, chartFrom_));
+  return due;
+}
+
+std::optional<DrawingThread::Task> DrawingThread::dueTask(Clock::time_point now) {
+  if (pick_) {
+    const QPoint p = *std::exchange(pick_, std::nullopt);
+    return [this, p](vis::Renderer& r) { Q_EMIT picked(r.pick(p.x(), p.y()).grain); };
+  }
+  const bool pictureDue = picture_ && (picture_->interactive || now >= pictureFrom_);
+  const bool chartDue = !charts_.empty() && now >= std::max(pictureFrom_, chartFrom_);
+  if (pictureDue && !(chartDue && !chartLast_ && !picture_->interactive)) {
+    chartLast_ = false;
+    PictureOrder order = std::move(*std::exchange(picture_, std::nullopt));
+    return [this, order = std::move(order)](vis::Renderer& r) { drawPicture(r, order); };
+  }
+  if (chartDue) {
+    chartLast_ = true;
+    auto node = charts_.extract(charts_.begin());
+    return [this, panel = node.key(), order = std::move(node.mapped())](vis::Renderer& r) {
+      Q_EMIT chartReady(panel, toQImage(r.draw(order.curve, order.pixels.width(), order.pixels.height())));
+    };
+  }
+  if (!files_.empty()) {
+    PictureFile file = std::move(files_.front());
+    files_.pop_front();
+    return [this, file = std::move(file)](vis::Renderer& r) { writePicture(r, file); };
+  }
+  return std::nullopt;
+}
+
+void DrawingThread::drawPicture(vis::Renderer& renderer, const PictureOrder& order) {
+  Picture picture;
+  picture.frame = order.frame ? order.frame : order.source->load(order.index);
+  vis::View view = order.view;
+  const auto known = grainScalarNames(*picture.frame);
+  if (std::find(known.begin(), known.end(), view.colouring.quantity) == known.end())
+    view.colouring.quantity.clear(); // frames of other origin may hold positions alone
+  picture.image = toQImage(renderer.draw(*picture.frame, view));
+  picture.camera = renderer.resolvedCamera();
+  picture.number = order.number;
+  picture.interactive = order.interactive;
+  if (out_.put(std::move(picture))) Q_EMIT pictureReady();
+}
+
+void DrawingThread::writePicture(vis::Renderer& renderer, const PictureFile& file) {
+  QString fault;
+  try {
+    const vis::Image image = renderer.draw(*file.frame, file.view);
+    auto text = file.frame->provenance;
+    text.insert(file.text.begin(), file.text.end());
+    text["Software"] = "Sandglass";
+    text["view"] = vis::writeView(file.view);
+    text["time"] = fmt::format("{:.17g}", file.frame->time);
+    vis::writePng(image, file.file, text);
+  } catch (const std::exception& e) {
+    fault = QString::fromUtf8(e.what());
+  }
+  Q_EMIT saved(QString::fromStdString(file.file), fault);
+}
+
+} // namespace sandglass::desktop

@@ -1,0 +1,113 @@
+#pragma once
+// The thread that owns the one GL context and draws everything: the picture of the grains, charts, pictures
+// for files. Orders go in through a slot of one place per kind, so that stale ones are never drawn; results
+// come out through a slot of one place, fetched when pictureReady() says so.
+//
+// While a simulation runs, the thread draws at a lower priority, at most five pictures a second, and rests
+// after each one for as long as keeps it within its share of one core; a picture with the mouse button down
+// does not wait.
+
+#include "analysis/result.h"
+#include "app/desktop/one_slot.h"
+#include "vis/renderer.h"
+
+#include "sim/io/run_folder.h"
+
+#include <QImage>
+#include <QObject>
+#include <QPoint>
+#include <QSize>
+#include <QString>
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace sandglass::desktop {
+
+/// What to draw: a frame at hand, or frame `index` of a source, loaded by the drawing thread.
+struct PictureOrder {
+  FramePtr frame;
+  std::shared_ptr<const FrameSource> source;
+  std::size_t index = 0;
+  vis::View view;
+  quint64 number = 0;       ///< of the order; its picture carries it
+  bool interactive = false; ///< somebody waits with the mouse button down
+};
+
+struct Picture {
+  QImage image;
+  FramePtr frame;
+  vis::Camera camera; ///< presets resolved
+  quint64 number = 0;
+  bool interactive = false;
+};
+
+struct PictureFile {
+  FramePtr frame;
+  vis::View view;
+  std::string file;
+  std::map<std::string, std::string> text; ///< further chunks; provenance and view are added
+};
+
+class DrawingThread : public QObject {
+  Q_OBJECT
+public:
+  explicit DrawingThread(vis::GlBackend backend = vis::GlBackend::automatic);
+  ~DrawingThread() override;
+
+  void draw(PictureOrder order);
+  void drawChart(const QString& panel, analysis::Curve curve, QSize pixels);
+  void pick(QPoint pixel);     ///< of the picture drawn last
+  void save(PictureFile file); ///< never dropped
+  void setSimulationRuns(bool runs);
+
+  std::optional<Picture> takePicture() { return out_.take(); }
+
+Q_SIGNALS: // from the drawing thread: connect to objects of the window's thread
+  void pictureReady();
+  void chartReady(const QString& panel, const QImage& image);
+  void picked(qint64 grain);
+  void saved(const QString& file, const QString& fault); ///< no fault: it is there
+  void failed(const QString& sentence);
+  void started(const QString& backend);
+
+private:
+  struct ChartOrder {
+    analysis::Curve curve;
+    QSize pixels;
+  };
+  using Clock = std::chrono::steady_clock;
+  using Task = std::function<void(vis::Renderer&)>;
+
+  void work(vis::GlBackend backend);
+  std::optional<Task> nextTask();
+  std::optional<Task> dueTask(Clock::time_point now);
+  Clock::time_point nextDue() const;
+  void drawPicture(vis::Renderer& renderer, const PictureOrder& order);
+  void writePicture(vis::Renderer& renderer, const PictureFile& file);
+  void rest(double seconds, double processorSeconds);
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<PictureOrder> picture_;
+  std::map<QString, ChartOrder> charts_;
+  std::deque<PictureFile> files_;
+  std::optional<QPoint> pick_;
+  bool simulationRuns_ = false, quit_ = false, chartLast_ = false;
+  Clock::time_point pictureFrom_{}, chartFrom_{}; ///< not before
+
+  OneSlot<Picture> out_;
+  std::thread thread_; ///< last: starts when all else is there
+};
+
+/// An Image as Qt paints it without conversion.
+QImage toQImage(vis::Image image);
+
+} // namespace sandglass::desktop

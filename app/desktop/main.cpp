@@ -1,0 +1,110 @@
+// sandglass-desktop: the window.
+
+#include "app/desktop/background.h"
+#include "app/desktop/main_window.h"
+#include "app/desktop/screenshot.h"
+#include "app/desktop/style.h"
+#include "sim/base/error.h"
+
+#include <CLI/CLI.hpp>
+#include <QApplication>
+#include <QTimer>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+struct Arguments {
+  std::string path, folder, viewFile, screenshot, size = "1440x900", backend = "auto";
+  int threads = 0;
+  double at = -1;
+  bool run = false;
+};
+
+void addOptions(CLI::App& app, Arguments& a) {
+  app.add_option("PATH", a.path, "a scene, the folder of a run, a file of frames, or a saved picture");
+  app.add_option("-o,--output", a.folder, "folder of the run (out/<name of the scene>)");
+  app.add_option("--threads", a.threads, "of the simulation; 0: all cores")->check(CLI::NonNegativeNumber);
+  app.add_flag("--run", a.run, "start at once");
+  app.add_option("--view", a.viewFile, "view file (TOML)");
+  app.add_option("--at", a.at, "show the saved frame nearest to this time [s]");
+  app.add_option("--size", a.size, "of the window, WIDTHxHEIGHT [pixel]");
+  app.add_option("--screenshot", a.screenshot,
+                 "save what the window looks like as PNG, then quit; needs no display");
+  app.add_option("--gl", a.backend, "who draws")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
+}
+
+sandglass::vis::GlBackend backendOf(const std::string& name) {
+  using sandglass::vis::GlBackend;
+  return name == "osmesa" ? GlBackend::osmesa : name == "egl" ? GlBackend::egl : GlBackend::automatic;
+}
+
+QSize sizeOf(const std::string& text) {
+  int width = 0, height = 0;
+  if (std::sscanf(text.c_str(), "%dx%d", &width, &height) != 2 || width < 400 || height < 300)
+    throw sandglass::InputError("--size " + text + ": a size is WIDTHxHEIGHT, at least 400x300");
+  return {width, height};
+}
+
+/// Qt ends the program with a message of its own when there is no display; a screenshot needs none.
+void choosePlatform(const Arguments& a) {
+  const bool display = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+  if (display || std::getenv("QT_QPA_PLATFORM")) return;
+  if (a.screenshot.empty())
+    throw sandglass::InputError(
+        "there is no display (DISPLAY and WAYLAND_DISPLAY are not set); use sandglass run, "
+        "or --screenshot, or xvfb-run");
+  setenv("QT_QPA_PLATFORM", "offscreen", 1);
+}
+
+int show(const Arguments& a, int argc, char** argv) {
+  using namespace sandglass::desktop;
+  choosePlatform(a);
+  limitRasteriserThreads();
+  QApplication application(argc, argv);
+  setStyle(application);
+  WindowOptions options;
+  options.session.threads = a.threads;
+  options.session.folder = a.folder;
+  options.backend = backendOf(a.backend);
+  options.asksNothing = !a.screenshot.empty();
+  MainWindow window(options);
+  window.resize(sizeOf(a.size));
+  if (!a.viewFile.empty()) window.showView(sandglass::vis::readView(a.viewFile));
+  QObject::connect(&window.session(), &Session::opened, &window, [&] {
+    if (a.at >= 0) window.showTime(a.at);
+    if (a.run) window.session().start();
+  });
+  window.show();
+  if (!a.path.empty()) window.open(QString::fromStdString(a.path));
+  if (a.screenshot.empty()) return QApplication::exec();
+  if (saveScreenshot(window, QString::fromStdString(a.screenshot))) return 0;
+  const QString fault = window.bannerText();
+  throw sandglass::InputError(fault.isEmpty()
+                                  ? a.screenshot + ": there was nothing to show, or it cannot be written"
+                                  : fault.toStdString());
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Sandglass: granular flow in a window."};
+  Arguments arguments;
+  addOptions(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  try {
+    return show(arguments, argc, argv);
+  } catch (const sandglass::InputError& e) {
+    for (const auto& sentence : e.sentences())
+      std::fprintf(stderr, "sandglass-desktop: %s\n", sentence.c_str());
+    return 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "sandglass-desktop: %s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,106 @@
+#include "app/desktop/opening.h"
+
+#include "sim/base/error.h"
+#include "sim/run/checkpoint_store.h"
+#include "vis/renderer.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace sandglass::desktop {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string textOf(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void readSceneInto(Opened& opened, const fs::path& file) {
+  opened.scene = readScene(file.string());
+  opened.sceneText = QString::fromStdString(textOf(file));
+  opened.resolved = QString::fromStdString(writeScene(*opened.scene));
+}
+
+bool isRunFolder(const fs::path& folder) {
+  return fs::is_directory(folder / "frames") || fs::is_directory(folder / "checkpoints");
+}
+
+Opened openScene(const fs::path& file) {
+  Opened opened;
+  opened.path = file;
+  readSceneInto(opened, file);
+  opened.store = std::make_shared<FrameStore>(file);
+  return opened;
+}
+
+Opened openRun(const fs::path& folder) {
+  Opened opened;
+  opened.path = opened.runFolder = folder;
+  if (fs::exists(folder / "scene.toml")) readSceneInto(opened, folder / "scene.toml");
+  opened.store =
+      fs::is_directory(folder / "frames") ? FrameStore::open(folder) : std::make_shared<FrameStore>(folder);
+  opened.series.load(folder);
+  opened.canResume = opened.scene && hasCheckpoint(folder);
+  return opened;
+}
+
+Opened openPicture(const fs::path& file) {
+  std::map<std::string, std::string> text;
+  vis::readPng(file, &text);
+  if (!text.contains("source"))
+    throw InputError(
+        fmt::format("{}: this picture does not name the run that it shows; only pictures saved by "
+                    "this program do",
+                    file.string()));
+  Opened opened = openAny(text["source"]);
+  if (text.contains("view")) {
+    opened.view = vis::parseView(text["view"], file.string() + " (view inside)");
+  }
+  if (text.contains("time")) opened.time = std::stod(text["time"]);
+  return opened;
+}
+
+} // namespace
+
+bool hasCheckpoint(const fs::path& runFolder) {
+  return !checkpointFiles(runFolder).empty();
+}
+
+fs::path newRunFolder(const fs::path& runsFolder, const fs::path& sceneFile) {
+  const fs::path whole = fs::absolute(sceneFile);
+  const std::string stem =
+      whole.filename() == "scene.toml" ? whole.parent_path().filename().string() : whole.stem().string();
+  fs::path folder = runsFolder / stem;
+  for (int number = 2; fs::exists(folder); ++number)
+    folder = runsFolder / fmt::format("{}-{}", stem, number);
+  return folder;
+}
+
+Opened openAny(const fs::path& path) {
+  if (!fs::exists(path)) throw InputError(fmt::format("{}: there is no such file or folder", path.string()));
+  if (fs::is_directory(path)) {
+    if (isRunFolder(path)) return openRun(path);
+    if (fs::exists(path / "scene.toml")) return openScene(path / "scene.toml");
+    throw InputError(
+        fmt::format("{}: this folder holds neither a run (frames/) nor a scene (scene.toml)", path.string()));
+  }
+  if (path.extension() == ".toml") {
+    // The scene inside a run folder stands for the run.
+    const fs::path folder = fs::absolute(path).parent_path();
+    return path.filename() == "scene.toml" && isRunFolder(folder) ? openRun(folder) : openScene(path);
+  }
+  if (path.extension() == ".png") return openPicture(path);
+  Opened opened;
+  opened.path = path;
+  opened.store = FrameStore::open(path);
+  return opened;
+}
+
+} // namespace sandglass::desktop

@@ -1,0 +1,40 @@
+#pragma once
+// From a path to what the window shows of it.
+
+#include "app/desktop/frame_store.h"
+#include "app/desktop/probe_series.h"
+#include "sim/scene/scene.h"
+#include "vis/view.h"
+
+#include <QString>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace sandglass::desktop {
+
+/// Everything read from one path.
+struct Opened {
+  std::filesystem::path path;
+  QString sceneText; ///< as the user wrote it; empty when there is no scene
+  QString resolved;  ///< the scene with all numbers in SI units
+  std::optional<Scene> scene;
+  std::filesystem::path runFolder;   ///< empty for a scene that was not run
+  std::shared_ptr<FrameStore> store; ///< may be empty, never null
+  ProbeSeries series;
+  std::optional<vis::View> view; ///< that of an opened picture
+  std::optional<double> time;    ///< [s], frame to show; absent: the last one
+  bool canResume = false;        ///< there is a checkpoint
+};
+
+/// A scene, a run folder, a segment of frames, or a picture that leads back to its run. Throws InputError.
+Opened openAny(const std::filesystem::path& path);
+
+bool hasCheckpoint(const std::filesystem::path& runFolder);
+
+/// Folder for a new run of the scene in `sceneFile`: below `runsFolder`, numbered where the name is taken.
+std::filesystem::path newRunFolder(const std::filesystem::path& runsFolder,
+                                   const std::filesystem::path& sceneFile);
+
+} // namespace sandglass::desktop

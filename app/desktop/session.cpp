@@ -1,0 +1,141 @@
+#include "app/desktop/session.h"
+
+#include "sim/base/error.h"
+
+#include <utility>
+
+namespace sandglass::desktop {
+
+Session::Session(SessionOptions options) : options_(std::move(options)) {
+  pool_.setMaxThreadCount(1);
+}
+
+Session::~Session() {
+  pool_.waitForDone();
+}
+
+void Session::open(const QString& path) {
+  const quint64 order = ++opening_;
+  pool_.start([this, order, path] {
+    QStringList faults;
+    auto result = std::make_shared<Opened>();
+    try {
+      *result = openAny(path.toStdString());
+    } catch (const InputError& e) {
+      for (const auto& sentence : e.sentences())
+        faults << QString::fromStdString(sentence);
+    } catch (const std::exception& e) {
+      faults << QString::fromUtf8(e.what());
+    }
+    QMetaObject::invokeMethod(this, [this, order, faults, result] {
+      if (order != opening_) return;
+      opened_ = order;
+      if (!faults.isEmpty()) {
+        Q_EMIT openFailed(faults);
+        return;
+      }
+      retire();
+      current_ = std::move(*result);
+      live_.reset();
+      progress_.reset();
+      Q_EMIT opened();
+      Q_EMIT stateChanged();
+    });
+  });
+}
+
+void Session::start(bool paused) {
+  if (!canStart()) return;
+  retired_.clear(); // waits: one of them may still write to this folder
+  simulation_.reset();
+  SimulationOptions options;
+  options.threads = options_.threads;
+  options.paused = paused;
+  options.resume = current_.canResume;
+  if (current_.runFolder.empty()) {
+    current_.runFolder = newRunFolder(options_.runsFolder, current_.path);
+    options_.folder.clear(); // the next scene gets one of its own
+  }
+  options.folder = current_.runFolder;
+  if (!options.resume) {
+    current_.store = std::make_shared<FrameStore>(current_.runFolder);
+    current_.series.clear();
+  }
+  resuming_ = options.resume;
+  simulation_ = std::make_unique<Simulation>(*current_.scene, options, current_.store);
+  connect(simulation_.get(), &Simulation::changed, this, &Session::fetch);
+  connect(simulation_.get(), &Simulation::finished, this, &Session::ended);
+  Q_EMIT logged(static_cast<int>(LogLevel::info),
+                QString("The run is kept in %1.").arg(QString::fromStdString(current_.runFolder.string())));
+  Q_EMIT stateChanged();
+}
+
+void Session::pause(bool on) {
+  if (!runs()) return;
+  simulation_->pause(on);
+  Q_EMIT stateChanged();
+}
+
+void Session::step(int steps) {
+  if (!runs()) start(true);
+  if (!runs()) return;
+  simulation_->step(steps);
+  Q_EMIT stateChanged();
+}
+
+void Session::stop() {
+  if (runs()) simulation_->stop();
+}
+
+void Session::stopAndWait() {
+  simulation_.reset();
+  retired_.clear();
+}
+
+void Session::retire() {
+  if (!simulation_) return;
+  simulation_->disconnect(this);
+  simulation_->stop();
+  connect(simulation_.get(), &Simulation::finished, this,
+          [this] { std::erase_if(retired_, [this](const auto& s) { return s.get() == sender(); }); });
+  if (!simulation_->isFinished()) retired_.push_back(std::move(simulation_));
+  simulation_.reset();
+}
+
+void Session::fetch() {
+  if (!simulation_) return;
+  const auto samples = simulation_->takeSamples();
+  for (const auto& [level, text] : simulation_->takeMessages())
+    Q_EMIT logged(static_cast<int>(level), QString::fromStdString(text));
+  const auto frame = simulation_->takeFrame();
+  if (frame && std::exchange(resuming_, false)) current_.series.restartFrom((*frame)->time);
+  for (const auto& sample : samples)
+    current_.series.add(sample);
+  if (!samples.empty()) Q_EMIT samplesArrived();
+  if (const auto progress = simulation_->takeProgress()) {
+    progress_ = *progress;
+    Q_EMIT progressArrived();
+  }
+  if (frame) {
+    live_ = *frame;
+    Q_EMIT frameArrived();
+  }
+}
+
+void Session::ended(bool complete, const QString& fault) {
+  if (sender() != simulation_.get()) return;
+  fetch();
+  current_.canResume = hasCheckpoint(current_.runFolder);
+  const auto store = current_.store;
+  pool_.start([store] {
+    try {
+      store->refresh();
+    } catch (const Error&) {
+      // Opening the run again tells what is wrong with its files.
+    }
+  });
+  Q_EMIT runEnded(complete, fault);
+  Q_EMIT stateChanged();
+}
+
+} // namespace sandglass::desktop

@@ -1,0 +1,73 @@
+#pragma once
+// What is open (a scene, a run, a file of frames) and the simulation of it, if one goes on. Lives in the
+// window's thread; files are opened in another.
+
+#include "app/desktop/opening.h"
+#include "app/desktop/simulation.h"
+
+#include <QObject>
+#include <QString>
+#include <QThreadPool>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace sandglass::desktop {
+
+struct SessionOptions {
+  std::filesystem::path runsFolder = "out"; ///< new runs go below it, named after their scene
+  std::filesystem::path folder;             ///< folder of the next new run; empty: a new one in runsFolder
+  int threads = 0;                          ///< of the simulation; 0: all cores
+};
+
+class Session : public QObject {
+  Q_OBJECT
+public:
+  explicit Session(SessionOptions options);
+  ~Session() override;
+
+  void open(const QString& path); ///< opened() or openFailed() follows
+  const Opened& current() const { return current_; }
+  bool isOpening() const { return opened_ != opening_; }
+  bool isOpen() const { return !current_.path.empty(); }
+
+  bool runs() const { return simulation_ && !simulation_->isFinished(); }
+  bool isPaused() const { return runs() && simulation_->isPaused(); }
+  bool canStart() const { return current_.scene && !runs(); }
+  void start(bool paused = false); ///< goes on where a run has a checkpoint
+  void pause(bool on);
+  void step(int steps); ///< starts paused when nothing runs
+  void stop();
+  void stopAndWait();                          ///< the checkpoint is written afterwards
+  FramePtr liveFrame() const { return live_; } ///< newest of the simulation; null when none runs
+  const std::optional<Progress>& progress() const { return progress_; }
+
+Q_SIGNALS:
+  void opened();
+  void openFailed(const QStringList& sentences);
+  void stateChanged(); ///< started, paused, stopped
+  void frameArrived(); ///< liveFrame() is a new one
+  void progressArrived();
+  void samplesArrived();
+  void logged(int level, const QString& text);
+  void runEnded(bool complete, const QString& fault);
+
+private:
+  void fetch();
+  void ended(bool complete, const QString& fault);
+  void retire();
+
+  SessionOptions options_;
+  Opened current_;
+  std::unique_ptr<Simulation> simulation_;
+  std::vector<std::unique_ptr<Simulation>> retired_; ///< stopping; nobody listens any more
+  FramePtr live_;
+  std::optional<Progress> progress_;
+  quint64 opening_ = 0, opened_ = 0; ///< the newest order wins
+  bool resuming_ = false;
+  QThreadPool pool_;
+};
+
+} // namespace sandglass::desktop

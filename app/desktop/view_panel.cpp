@@ -1,0 +1,218 @@
+#include "app/desktop/view_panel.h"
+
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+
+#include <algorithm>
+
+namespace sandglass::desktop {
+
+namespace {
+
+constexpr int clipSteps = 400; ///< places of the clip plane across the domain
+const char* const oneColour = "one colour";
+
+QDoubleSpinBox* limitBox(QWidget* parent, const char* name, double value) {
+  auto* box = new QDoubleSpinBox(parent);
+  box->setObjectName(name);
+  box->setDecimals(6);
+  box->setRange(-1e12, 1e12);
+  box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  box->setValue(value);
+  box->setKeyboardTracking(false);
+  box->setMinimumWidth(80);
+  return box;
+}
+
+QLabel* heading(const QString& text) {
+  auto* label = new QLabel(text);
+  label->setProperty("heading", true);
+  return label;
+}
+
+} // namespace
+
+ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
+  setObjectName("view");
+  auto* form = new QFormLayout(this);
+  form->setContentsMargins(12, 10, 12, 10);
+  form->setVerticalSpacing(7);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  addColours(form);
+  addClip(form);
+  addShown(form);
+  setView({});
+}
+
+void ViewPanel::addColours(QFormLayout* form) {
+  form->addRow(heading("Colour"));
+  quantity_ = new QComboBox(this);
+  quantity_->setObjectName("quantity");
+  quantity_->addItem(oneColour);
+  form->addRow("Quantity", quantity_);
+  map_ = new QComboBox(this);
+  map_->setObjectName("map");
+  for (const auto& name : vis::colourMaps())
+    map_->addItem(QString::fromStdString(name));
+  form->addRow("Colours", map_);
+  range_ = new QComboBox(this);
+  range_->setObjectName("range");
+  range_->addItems({"of this frame", "of the whole run", "fixed"}); // in the order of ColourRange
+  form->addRow("Range", range_);
+  auto* limits = new QHBoxLayout;
+  low_ = limitBox(this, "low", 0);
+  high_ = limitBox(this, "high", 1);
+  limits->addWidget(low_);
+  limits->addWidget(high_);
+  form->addRow("Limits", limits);
+  for (auto* box : {quantity_, map_, range_})
+    connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
+      enable();
+      Q_EMIT changed();
+    });
+  for (auto* box : {low_, high_})
+    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &ViewPanel::changed);
+}
+
+void ViewPanel::addClip(QFormLayout* form) {
+  form->addRow(heading("Cut"));
+  clips_ = new QCheckBox("cut open", this);
+  clips_->setObjectName("clip");
+  axis_ = new QComboBox(this);
+  axis_->setObjectName("clipAxis");
+  axis_->addItems({"across x", "across y", "across z"});
+  auto* first = new QHBoxLayout;
+  first->addWidget(clips_);
+  first->addWidget(axis_, 1);
+  form->addRow("Plane", first);
+  position_ = new QSlider(Qt::Horizontal, this);
+  position_->setObjectName("clipPosition");
+  position_->setRange(0, clipSteps);
+  position_->setValue(clipSteps / 2);
+  flip_ = new QCheckBox("flip", this);
+  flip_->setObjectName("clipFlip");
+  auto* second = new QHBoxLayout;
+  second->addWidget(position_, 1);
+  second->addWidget(flip_);
+  form->addRow("Place", second);
+  for (auto* box : {clips_, flip_})
+    connect(box, &QCheckBox::toggled, this, [this] {
+      enable();
+      Q_EMIT changed();
+    });
+  connect(axis_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &ViewPanel::changed);
+  connect(position_, &QSlider::valueChanged, this, &ViewPanel::changed);
+}
+
+void ViewPanel::addShown(QFormLayout* form) {
+  form->addRow(heading("Show"));
+  opacity_ = new QSlider(Qt::Horizontal, this);
+  opacity_->setObjectName("wallOpacity");
+  opacity_->setRange(0, 100);
+  walls_ = new QCheckBox("walls", this);
+  removedWalls_ = new QCheckBox("removed walls", this);
+  legend_ = new QCheckBox("legend", this);
+  axes_ = new QCheckBox("axes", this);
+  scale_ = new QCheckBox("scale", this);
+  auto* shown = new QGridLayout;
+  shown->addWidget(walls_, 0, 0);
+  shown->addWidget(removedWalls_, 0, 1, 1, 2);
+  shown->addWidget(legend_, 1, 0);
+  shown->addWidget(axes_, 1, 1);
+  shown->addWidget(scale_, 1, 2);
+  form->addRow(shown);
+  form->addRow("Wall tint", opacity_);
+  connect(opacity_, &QSlider::valueChanged, this, &ViewPanel::changed);
+  for (auto* box : {walls_, removedWalls_, legend_, axes_, scale_})
+    connect(box, &QCheckBox::toggled, this, &ViewPanel::changed);
+}
+
+void ViewPanel::enable() {
+  const bool coloured = quantity_->currentText() != oneColour;
+  const bool fixed = coloured && range_->currentIndex() == static_cast<int>(vis::ColourRange::fixed);
+  map_->setEnabled(coloured);
+  range_->setEnabled(coloured);
+  low_->setEnabled(fixed);
+  high_->setEnabled(fixed);
+  for (QWidget* w :
+       {static_cast<QWidget*>(axis_), static_cast<QWidget*>(position_), static_cast<QWidget*>(flip_)})
+    w->setEnabled(clips_->isChecked());
+}
+
+void ViewPanel::setFrame(const Frame& frame) {
+  lower_ = frame.domain.lower;
+  upper_ = frame.domain.upper;
+  const auto names = grainScalarNames(frame);
+  if (names == names_) return;
+  names_ = names;
+  const QSignalBlocker blocker(quantity_);
+  const QString chosen = quantity_->currentText();
+  quantity_->clear();
+  quantity_->addItem(oneColour);
+  for (const auto& name : names)
+    quantity_->addItem(QString::fromStdString(name));
+  const int index = quantity_->findText(chosen);
+  quantity_->setCurrentIndex(std::max(index, 0));
+  enable();
+}
+
+void ViewPanel::setView(const vis::View& view) {
+  const QSignalBlocker a(quantity_), b(map_), c(range_), d(low_), e(high_), f(opacity_), g(walls_),
+      h(legend_), i(axes_), j(scale_), k(removedWalls_), l(clips_), m(axis_), n(position_), o(flip_);
+  const QString quantity =
+      view.colouring.quantity.empty() ? oneColour : QString::fromStdString(view.colouring.quantity);
+  if (quantity_->findText(quantity) < 0) quantity_->addItem(quantity);
+  quantity_->setCurrentText(quantity);
+  map_->setCurrentText(QString::fromStdString(view.colouring.map));
+  range_->setCurrentIndex(static_cast<int>(view.colouring.range));
+  low_->setValue(view.colouring.low);
+  high_->setValue(view.colouring.high);
+  opacity_->setValue(static_cast<int>(100 * view.wallOpacity + 0.5));
+  walls_->setChecked(view.walls);
+  removedWalls_->setChecked(view.removedWalls);
+  legend_->setChecked(view.legend);
+  axes_->setChecked(view.axes);
+  scale_->setChecked(view.scaleBar);
+  clips_->setChecked(!view.clips.empty());
+  if (!view.clips.empty()) {
+    Eigen::Index axis = 0;
+    const auto& clip = view.clips.front();
+    clip.normal.cwiseAbs().maxCoeff(&axis);
+    axis_->setCurrentIndex(static_cast<int>(axis));
+    flip_->setChecked(clip.normal[axis] < 0);
+    const double size = upper_[axis] - lower_[axis];
+    if (size > 0)
+      position_->setValue(static_cast<int>(clipSteps * (clip.point[axis] - lower_[axis]) / size + 0.5));
+  }
+  enable();
+}
+
+Vec3 ViewPanel::clipPoint() const {
+  return lower_ + (upper_ - lower_) * position_->value() / clipSteps;
+}
+
+void ViewPanel::apply(vis::View& view) const {
+  const QString quantity = quantity_->currentText();
+  view.colouring.quantity = quantity == oneColour ? "" : quantity.toStdString();
+  view.colouring.map = map_->currentText().toStdString();
+  view.colouring.range = static_cast<vis::ColourRange>(range_->currentIndex());
+  if (view.colouring.range == vis::ColourRange::fixed) {
+    view.colouring.low = std::min(low_->value(), high_->value());
+    view.colouring.high = std::max(low_->value(), high_->value());
+    if (!(view.colouring.high > view.colouring.low)) view.colouring.high = view.colouring.low + 1e-6;
+  }
+  view.wallOpacity = opacity_->value() / 100.0;
+  view.walls = walls_->isChecked();
+  view.removedWalls = removedWalls_->isChecked();
+  view.legend = legend_->isChecked();
+  view.axes = axes_->isChecked();
+  view.scaleBar = scale_->isChecked();
+  view.clips.clear();
+  if (!clips_->isChecked()) return;
+  const double side = flip_->isChecked() ? -1 : 1;
+  view.clips.push_back({clipPoint(), side * Vec3::Unit(axis_->currentIndex())});
+}
+
+} // namespace sandglass::desktop

@@ -1,0 +1,50 @@
+#pragma once
+// How the picture is drawn: colours, their range, one clip plane, what is shown.
+
+#include "sim/frame/frame.h"
+#include "vis/view.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QSlider>
+#include <QWidget>
+
+namespace sandglass::desktop {
+
+class ViewPanel : public QWidget {
+  Q_OBJECT
+public:
+  explicit ViewPanel(QWidget* parent = nullptr);
+
+  /// Offers the quantities and the extent of this frame.
+  void setFrame(const Frame& frame);
+  /// Shows a view; does not emit changed().
+  void setView(const vis::View& view);
+  /// Writes what the panel decides into `view`: all but the camera and the size.
+  void apply(vis::View& view) const;
+
+Q_SIGNALS:
+  void changed();
+
+private:
+  void addColours(QFormLayout* form);
+  void addClip(QFormLayout* form);
+  void addShown(QFormLayout* form);
+  void enable();
+  Vec3 clipPoint() const;
+
+  QComboBox *quantity_, *map_, *range_;
+  QDoubleSpinBox *low_, *high_;
+  QCheckBox* clips_;
+  QComboBox* axis_;
+  QSlider* position_;
+  QCheckBox* flip_;
+  QSlider* opacity_;
+  QCheckBox *walls_, *removedWalls_, *legend_, *axes_, *scale_;
+  Vec3 lower_ = Vec3::Zero(), upper_ = Vec3::Ones();
+  std::vector<std::string> names_; ///< of the quantities offered
+};
+
+} // namespace sandglass::desktop
