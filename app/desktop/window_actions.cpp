@@ -5,7 +5,7 @@
 #include "app/desktop/style.h"
 #include "app/desktop/view_panel.h"
 #include "sim/base/error.h"
-#include "vis/run_range.h"
+#include "vis/survey.h"
 
 #include <QDialog>
 #include <QFileDialog>
@@ -128,7 +128,7 @@ void MainWindow::scanRunRange() {
     std::array<double, 2> limits{0, 1};
     const bool any = store->size() > 0;
     try {
-      if (any) limits = vis::runRange({store.get()}, quantity);
+      if (any) limits = vis::survey({store.get()}, quantity).run;
     } catch (const Error& e) {
       fault = QString::fromUtf8(e.what());
     }
