@@ -75,7 +75,6 @@ Curve beverlooCurve(std::span<const OutletRate> points, const BeverlooFit& fit, 
       slot ? "(2/3)" : "(2/5)", slot ? "1.5" : "2.5", density, diameter, gravity);
   curve.x = {slot ? "outlet width" : "outlet diameter", "m"};
   curve.y = slot ? Axis{"(rate / depth)^(2/3)", "(kg/(m s))^(2/3)"} : Axis{"rate^(2/5)", "(kg/s)^(2/5)"};
-  curve.frames = points.size();
   Series measured{"runs", {}, {}, {}}, line{"fit", {}, {}, {}}, law{"law with k = 1.5", {}, {}, {}};
   std::vector<OutletRate> sorted(points.begin(), points.end());
   std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.outlet < b.outlet; });
@@ -92,7 +91,8 @@ Curve beverlooCurve(std::span<const OutletRate> points, const BeverlooFit& fit, 
     law.y.push_back(std::pow(rate, p));
   }
   curve.series = {measured, line, law};
-  curve.numbers = {{"k", fit.k},
+  curve.numbers = {{"runs", static_cast<double>(points.size())},
+                   {"k", fit.k},
                    {"k_error", fit.kError},
                    {"C", fit.c},
                    {"C_error", fit.cError},

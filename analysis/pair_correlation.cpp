@@ -163,11 +163,13 @@ PairCorrelationResult PairCorrelation::result() const {
   const char* what = options_.estimator == Estimator::uncorrected ? "no correction"
                      : options_.estimator == Estimator::guardZone ? "guard zone"
                                                                   : "local shell volume";
-  curve.definition = fmt::format(
-      "{} ({}); W: {}; rho = {} / |W|; all periodic images{}; d = {:.5g} m; {}", nameOf(options_.estimator),
-      what, regionText_, options_.selfImages ? "N" : "(N - 1)",
-      options_.selfImages ? "" : " but a grain's own", d,
-      frames >= 4 ? "error: blocks of frames" : "error: pair counts and shell sampling, a lower bound");
+  curve.definition =
+      fmt::format("{} ({}); W: {}; rho = {} / |W|; all periodic images{}; d = {:.5g} m; {}",
+                  nameOf(options_.estimator), what, regionText_, options_.selfImages ? "N" : "(N - 1)",
+                  options_.selfImages ? "" : " but a grain's own", d,
+                  frames >= 16  ? "error: blocks of frames"
+                  : frames >= 4 ? "error: scatter of the frames, taken as independent"
+                                : "error: pair counts and shell sampling, a lower bound");
   curve.numbers = {{"diameter", d},
                    {"density", density},
                    {"references", references},

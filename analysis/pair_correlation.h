@@ -51,8 +51,8 @@ public:
 
   std::size_t frames() const { return samples_.size(); }
 
-  /// Error bars: from blocks of Frames where there are four or more; else counting (Poisson, a lower bound)
-  /// and shell sampling together. Throws InputError when no Frame was good.
+  /// Error bars: from blocks of Frames where there are 16 or more, from their scatter where there are 4; else
+  /// counting (Poisson, a lower bound) and shell sampling together. Throws InputError when no Frame was good.
   PairCorrelationResult result() const;
 
 private:

@@ -130,3 +130,35 @@ TEST_CASE("uniform points under a free surface give 1", "[gr][uniform]") {
   CHECK(verdict.probability > 0.001);
   CHECK(verdict.probability < 0.999);
 }
+
+TEST_CASE("quoted errors are as large as the scatter", "[gr][uniform]") {
+  // Pairs of uniform points in a periodic box are uncorrelated, so that the counting error is exact for them.
+  // 40 frames: (g - 1) / error has mean square 1; over 20 bins and 40 frames its standard deviation is sqrt(2
+  // / 800) = 5 %. (Near walls counts are correlated, and the error is the lower bound that it says.)
+  PairCorrelationOptions options;
+  options.rMax = 0.5;
+  options.bins = 20;
+  options.directions = 16;
+  PairCorrelation all(options);
+  double square = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Frame frame = uniformFrame(800, Vec3(1, 1, 1), {true, true, true}, 0.05, {}, 500 + seed);
+    all.add(frame);
+    options.seed = 1 + seed;
+    const auto one = pairCorrelation(frame, options).g.series[0];
+    for (std::size_t b = 0; b < 20; ++b)
+      if (one.error[b] > 0) square += std::pow((one.y[b] - 1) / one.error[b], 2) / 800;
+  }
+  CHECK(square > 0.85);
+  CHECK(square < 1.15);
+  // The same frames together: blocks of frames give the error; 20 bins: standard deviation 32 % of the mean
+  // square.
+  const auto together = all.result();
+  CHECK(together.g.frames == 40);
+  double mean40 = 0;
+  for (std::size_t b = 0; b < 20; ++b)
+    mean40 += std::pow((together.g.series[0].y[b] - 1) / together.g.series[0].error[b], 2) / 20;
+  INFO("mean squares " << square << " and " << mean40);
+  CHECK(mean40 > 0.2);
+  CHECK(mean40 < 2.2);
+}
