@@ -249,7 +249,7 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   const std::lock_guard lock(vtkTurn());
   d.window->MakeCurrent();
   d.window->SetSize(over.width, over.height);
-  d.scene->SetUseFXAA(finer == 1);
+  d.scene->SetUseFXAA(finer == 1 && view.maximumGrains == 0); // a moving picture needs speed
   d.grains.show(d.visible, subset, colours.ofGrain);
   d.walls.show(frame, view, box, static_cast<float>(finer));
   d.setCamera(box);
