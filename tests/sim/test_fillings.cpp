@@ -37,7 +37,7 @@ size = { distribution = "uniform", smallest = "0.8 mm", largest = "1.6 mm" }
 name = "run"
 until = { duration = "1 s" }
 )" + rest,
-                    "box.toml");
+                    "box.toml", {}, SANDGLASS_SOURCE_DIR "/tests/sim/broken_scenes");
 }
 
 /// Deepest overlap of any two spheres over all images within one period [m]; negative: the smallest gap.
@@ -311,4 +311,20 @@ TEST_CASE("wide flat domains take no undue memory", "[filling]") {
       boxScene(R"(["x", "y"])", "[[fill]]\nkind = \"random\"\nnumber = 1000\nspecies = \"bead\"\n",
                R"(["100 m", "100 m", "5 mm"])");
   CHECK(deepestOverlap(scene, placeGrains(scene, "run", 0, {})) <= 0);
+}
+
+TEST_CASE("listed grains come from a CSV file with any units", "[filling]") {
+  const Scene scene = boxScene("[]", "[[fill]]\nkind = \"list\"\ncsv = \"sound.csv\"\n");
+  const auto grains = placeGrains(scene, "run", 5, {});
+  REQUIRE(grains.size() == 2);
+  CHECK(grains[0].id == 5);
+  CHECK(grains[0].position == Vec3(0.01, 0.011, 0.012));
+  CHECK(grains[0].velocity == Vec3(0.01, 0, -0.02));
+  CHECK(grains[0].spin.y() == Approx(2 * std::numbers::pi).epsilon(1e-14));
+  CHECK(grains[0].radius == 1e-3); // an empty diameter: that of its species
+  CHECK(grains[1].radius == 0.75e-3);
+  CHECK(grains[1].species == 1);
+  // The resolved scene holds the grains itself.
+  CHECK(writeScene(scene).find("sound.csv") == std::string::npos);
+  CHECK(parseScene(writeScene(scene), "box.toml") == scene);
 }
