@@ -45,7 +45,8 @@ public:
   std::vector<double> quantity(const std::string& name) const;
   void setQuantity(const std::string& name, const std::vector<double>& values);
 
-  // For benches and `explain`.
+  // For benches, tests and `explain`.
+  void overrideStep(double step) { dt_ = step; } ///< unchecked [s]; to study what the limit guards against
   std::size_t pairsListed() const { return list_.size(); }
   std::int64_t rebuilds() const { return rebuilds_; }
   double bytesPerGrain() const;
