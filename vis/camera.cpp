@@ -21,16 +21,17 @@ double slopeOf(const Camera& camera) {
   return std::tan(radians(camera.viewAngle) / 2);
 }
 
-/// What the corners of a box take of the picture, in picture heights from its middle.
+/// What points take of the picture, in picture heights from its middle.
 struct Outline {
   double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
 };
 
-Outline outlineOf(const Eigen::AlignedBox3d& box, const Camera& camera, const CameraAxes& axes) {
+Outline outlineOf(const std::vector<Vec3>& points, const Camera& camera, const CameraAxes& axes) {
   Outline outline;
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 d = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)) - camera.position;
-    const double nearest = 1e-6 * box.diagonal().norm(); // a corner behind the eye asks for more distance
+  // A point behind the eye asks for more distance.
+  const double nearest = 1e-6 * (camera.target - camera.position).norm();
+  for (const Vec3& p : points) {
+    const Vec3 d = p - camera.position;
     const double height = camera.orthographic ? camera.orthographicHeight
                                               : 2 * slopeOf(camera) * std::max(d.dot(axes.forward), nearest);
     const double x = d.dot(axes.right) / height, y = d.dot(axes.up) / height;
@@ -38,15 +39,6 @@ Outline outlineOf(const Eigen::AlignedBox3d& box, const Camera& camera, const Ca
                std::max(outline.top, y)};
   }
   return outline;
-}
-
-/// Index of the periodic direction that makes the box a slice, or -1.
-int thinDirection(const Eigen::AlignedBox3d& box, const std::array<bool, 3>& periodic) {
-  constexpr double thin = 0.2;
-  const Vec3 size = box.sizes();
-  for (int k = 0; k < 3; ++k)
-    if (periodic[k] && size[k] < thin * size[(k + 1) % 3] && size[k] < thin * size[(k + 2) % 3]) return k;
-  return -1;
 }
 
 /// The direction from the target to the camera.
@@ -71,6 +63,14 @@ Vec3 sideOf(const std::string& preset, int thin, const Vec3& up) {
 
 } // namespace
 
+int thinDirection(const Eigen::AlignedBox3d& box, const std::array<bool, 3>& periodic) {
+  constexpr double thin = 0.2;
+  const Vec3 size = box.sizes();
+  for (int k = 0; k < 3; ++k)
+    if (periodic[k] && size[k] < thin * size[(k + 1) % 3] && size[k] < thin * size[(k + 2) % 3]) return k;
+  return -1;
+}
+
 const std::vector<std::string>& cameraPresets() {
   static const std::vector<std::string> all{"fit", "front", "back", "left", "right", "top", "bottom", "iso"};
   return all;
@@ -89,16 +89,19 @@ double heightAtTarget(const Camera& camera) {
   return 2 * (camera.target - camera.position).norm() * slopeOf(camera);
 }
 
-Camera resolve(const Camera& camera, const Eigen::AlignedBox3d& box, const std::array<bool, 3>& periodic,
-               double aspect, const Frameable& frameable) {
+Camera resolve(const Camera& camera, const std::vector<Vec3>& points, int thin, double aspect,
+               const Frameable& frameable) {
+
   if (camera.preset.empty()) return camera;
-  const int thin = thinDirection(box, periodic);
   const Vec3 up = thin == 2 ? Vec3::UnitY() : Vec3::UnitZ();
   const Vec3 side = sideOf(camera.preset, thin, up);
 
   Camera result = camera;
   result.preset.clear();
   result.up = std::abs(side.dot(up)) > 0.999 ? Vec3(side.cross(Vec3::UnitX())) : up;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : points)
+    box.extend(p);
   result.target = box.center();
   result.position = result.target + side * std::max(box.diagonal().norm(), 1e-9) / slopeOf(camera);
   result.orthographicHeight = std::max(box.diagonal().norm(), 1e-9);
@@ -110,7 +113,7 @@ Camera resolve(const Camera& camera, const Eigen::AlignedBox3d& box, const std::
   // Move and approach until the corners fill the free part; perspective makes that a fixed-point iteration.
   constexpr int iterations = 100;
   for (int k = 0; k < iterations; ++k) {
-    const Outline outline = outlineOf(box, result, axes);
+    const Outline outline = outlineOf(points, result, axes);
     const double scale =
         std::max((outline.right - outline.left) / wide, (outline.top - outline.bottom) / high);
     if (k > 0 && std::abs(scale - 1) < 1e-12) break;

@@ -15,11 +15,14 @@ struct Frameable {
   double left = 0.04, right = 0.96, top = 0.04, bottom = 0.96;
 };
 
-/// `camera` with its preset replaced by numbers. "fit" looks along the thin direction of a slice (a periodic
-/// extent below a fifth of both others) and at three quarters at everything else. Up is z, or y where z is
-/// the thin direction. A camera without preset comes back unchanged.
-Camera resolve(const Camera& camera, const Eigen::AlignedBox3d& box, const std::array<bool, 3>& periodic,
-               double aspect, const Frameable& frameable);
+/// Index of the periodic direction that makes the box a slice (below a fifth of both others), or -1.
+int thinDirection(const Eigen::AlignedBox3d& box, const std::array<bool, 3>& periodic);
+
+/// `camera` with its preset replaced by numbers such that `points` fill the free part of the picture. "fit"
+/// looks along the thin direction of a slice and at three quarters at everything else. Up is z, or y where z
+/// is the thin direction. A camera without preset comes back unchanged.
+Camera resolve(const Camera& camera, const std::vector<Vec3>& points, int thin, double aspect,
+               const Frameable& frameable);
 
 /// Height of the picture in metres at the depth of the camera's target.
 double heightAtTarget(const Camera& camera);

@@ -4,6 +4,7 @@
 #include "vis/overlay.h"
 #include "vis/visible_grains.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sandglass::vis {
@@ -15,30 +16,54 @@ bool hasDomain(const Frame& frame) {
   return size.allFinite() && (size.array() > 0).all();
 }
 
-/// Lets the wall move each side of the box outwards by up to `most` of the box' size.
-void takeIn(Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& wall, const Vec3& most) {
-  for (int k = 0; k < 3; ++k) {
-    const double down = box.min()[k] - wall.min()[k], up = wall.max()[k] - box.max()[k];
-    if (down > 0 && down <= most[k]) box.min()[k] = wall.min()[k];
-    if (up > 0 && up <= most[k]) box.max()[k] = wall.max()[k];
-  }
+std::vector<Vec3> cornersOf(const Eigen::AlignedBox3d& box) {
+  std::vector<Vec3> all;
+  for (int k = 0; k < 8; ++k)
+    all.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+  return all;
 }
 
 } // namespace
 
-Eigen::AlignedBox3d grainBox(const Frame& frame) {
-  Eigen::AlignedBox3d box;
+void GrainExtent::add(const Frame& frame) {
   const VisibleGrains grains = visibleGrains(frame, View{});
+  const bool gridded = hasDomain(frame);
+  const Vec3 lower = frame.domain.lower, part = (frame.domain.upper - lower) / parts;
+  const auto cell = [&](double x, int axis) {
+    return std::clamp(static_cast<int>(std::floor((x - lower[axis]) / part[axis])), 0, parts - 1);
+  };
   for (std::size_t i = 0; i < grains.position.size(); ++i) {
-    box.extend(grains.position[i] - Vec3::Constant(grains.radius[i]));
-    box.extend(grains.position[i] + Vec3::Constant(grains.radius[i]));
+    const Vec3 first = grains.position[i] - Vec3::Constant(grains.radius[i]);
+    const Vec3 last = grains.position[i] + Vec3::Constant(grains.radius[i]);
+    box_.extend(first);
+    box_.extend(last);
+    if (!gridded) continue;
+    for (int x = cell(first.x(), 0); x <= cell(last.x(), 0); ++x)
+      for (int y = cell(first.y(), 1); y <= cell(last.y(), 1); ++y)
+        for (int z = cell(first.z(), 2); z <= cell(last.z(), 2); ++z)
+          cells_.set(static_cast<std::size_t>(x + parts * (y + parts * z)));
   }
-  return box;
+}
+
+std::vector<Vec3> GrainExtent::corners(const Frame& frame) const {
+  if (!hasDomain(frame)) return cornersOf(box_);
+  const Vec3 lower = frame.domain.lower, part = (frame.domain.upper - lower) / parts;
+  std::vector<Vec3> all;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (!cells_[c]) continue;
+    const int n = static_cast<int>(c);
+    const Vec3 corner = lower + part.cwiseProduct(Vec3(n % parts, n / parts % parts, n / parts / parts));
+    for (const Vec3& p : cornersOf({corner, corner + part}))
+      all.push_back(p);
+  }
+  return all;
 }
 
 Eigen::AlignedBox3d domainBox(const Frame& frame) {
   if (hasDomain(frame)) return {frame.domain.lower, frame.domain.upper};
-  Eigen::AlignedBox3d box = grainBox(frame);
+  GrainExtent grains;
+  grains.add(frame);
+  Eigen::AlignedBox3d box = grains.box();
   for (const auto& wall : frame.walls) {
     const auto bounds = wall.shape->bounds();
     if (bounds.min().allFinite() && bounds.max().allFinite()) box.extend(bounds);
@@ -47,34 +72,25 @@ Eigen::AlignedBox3d domainBox(const Frame& frame) {
   return box;
 }
 
-Eigen::AlignedBox3d fitBox(const Frame& frame, const Eigen::AlignedBox3d& grains) {
-  if (grains.isEmpty()) return domainBox(frame);
-  Eigen::AlignedBox3d box = grains;
-  const Vec3 most = 0.5 * grains.sizes();
+std::vector<Vec3> fitPoints(const Frame& frame, const GrainExtent& grains) {
+  if (grains.empty()) return cornersOf(domainBox(frame));
+  std::vector<Vec3> points = grains.corners(frame);
+  Eigen::AlignedBox3d reach = grains.box();
+  const Vec3 most = 1.25 * grains.box().sizes();
+  reach.extend(Vec3(reach.min() - most));
+  reach.extend(Vec3(reach.max() + most));
   for (const auto& wall : frame.walls)
-    if (wall.active) takeIn(box, wall.shape->bounds(), most);
-  if (!hasDomain(frame)) return box;
-
-  constexpr double parts = 8;
-  const Vec3& lower = frame.domain.lower;
-  const Vec3 part = (frame.domain.upper - lower) / parts;
-  for (int k = 0; k < 3; ++k) {
-    if (frame.domain.periodic[k]) {
-      box.min()[k] = lower[k];
-      box.max()[k] = frame.domain.upper[k];
-      continue;
-    }
-    const double first = std::floor((box.min()[k] - lower[k]) / part[k] + 1e-9);
-    const double last = std::ceil((box.max()[k] - lower[k]) / part[k] - 1e-9);
-    box.min()[k] = lower[k] + part[k] * std::clamp(first, 0.0, parts - 1);
-    box.max()[k] = lower[k] + part[k] * std::clamp(last, std::clamp(first, 0.0, parts - 1) + 1, parts);
-  }
-  return box;
+    if (wall.active && reach.contains(wall.shape->bounds()))
+      for (const Vec3& p : wall.shape->mesh(reach).points)
+        points.push_back(p);
+  return points;
 }
 
-Camera fitCamera(const Frame& frame, const View& view, const Eigen::AlignedBox3d& grains) {
+Camera fitCamera(const Frame& frame, const View& view, const GrainExtent& grains) {
+  if (view.camera.preset.empty()) return view.camera;
   const bool titled = !view.title.empty() || frame.provenance.contains("title");
-  return resolve(view.camera, fitBox(frame, grains), frame.domain.periodic,
+  return resolve(view.camera, fitPoints(frame, grains),
+                 thinDirection(domainBox(frame), frame.domain.periodic),
                  static_cast<double>(view.width) / view.height, freeArea(view, titled));
 }
 

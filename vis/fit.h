@@ -6,21 +6,38 @@
 
 #include <Eigen/Geometry>
 
+#include <bitset>
+#include <vector>
+
 namespace sandglass::vis {
 
 /// The domain, or what is there (grains, finite walls) when the frame has none.
 Eigen::AlignedBox3d domainBox(const Frame& frame);
 
-/// The box around all grains, clipped ones too; empty without grains.
-Eigen::AlignedBox3d grainBox(const Frame& frame);
+/// Where the grains of one or more frames are: the occupied cells of a grid of eight by eight by eight over
+/// the domain, coarse so that the camera of a moving heap does not tremble; a plain box where there is no
+/// domain.
+class GrainExtent {
+public:
+  void add(const Frame& frame); ///< all its grains, clipped ones too
+  bool empty() const { return box_.isEmpty(); }
+  const Eigen::AlignedBox3d& box() const { return box_; } ///< around the grains, not rounded
 
-/// What a picture shall hold when its grains fill `grains`: those, the walls around them as far as they add
-/// less than half, whole periodic extents, rounded outwards to eighths of the domain, so that a film of
-/// moving grains does not tremble. The domain when `grains` is empty.
-Eigen::AlignedBox3d fitBox(const Frame& frame, const Eigen::AlignedBox3d& grains);
+  /// Corners of the occupied cells.
+  std::vector<Vec3> corners(const Frame& frame) const;
 
-/// The view's camera with its preset replaced by numbers. What draw() does with grainBox(frame); with the
-/// box of many frames it is the camera of their film.
-Camera fitCamera(const Frame& frame, const View& view, const Eigen::AlignedBox3d& grains);
+private:
+  static constexpr int parts = 8;
+  std::bitset<parts * parts * parts> cells_;
+  Eigen::AlignedBox3d box_;
+};
+
+/// What a picture shall hold: the grains, and the walls that extend no further on any side than five quarters
+/// of the grains' extent. Points whose hull that is; the domain when there are no grains.
+std::vector<Vec3> fitPoints(const Frame& frame, const GrainExtent& grains);
+
+/// The view's camera with its preset replaced by numbers. draw() does so with the extent of its one frame;
+/// with that of many frames it is the camera of their film.
+Camera fitCamera(const Frame& frame, const View& view, const GrainExtent& grains);
 
 } // namespace sandglass::vis

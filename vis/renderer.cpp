@@ -242,7 +242,9 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   over.title = view.title.empty() && sceneTitle != frame.provenance.end() ? sceneTitle->second : view.title;
   over.time = view.timeStamp ? timeText(frame.time) : "";
   over.legend = view.legend && view.grains ? colours.legend : std::nullopt;
-  d.camera = fitCamera(frame, view, grainBox(frame));
+  GrainExtent extent;
+  if (!view.camera.preset.empty()) extent.add(frame);
+  d.camera = fitCamera(frame, view, extent);
   over.axes = view.axes ? std::optional(axesOf(d.camera)) : std::nullopt;
   over.metresPerPixel = view.scaleBar ? heightAtTarget(d.camera) / over.height : 0;
 

@@ -1,7 +1,5 @@
 #include "vis/survey.h"
 
-#include "vis/fit.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,11 +35,11 @@ Survey survey(const std::vector<const FrameSource*>& sources, const std::string&
     for (std::size_t k = 0; k < source->size(); ++k) {
       const FramePtr frame = source->load(k);
       if (frame->stage != stage) {
-        result.grains.setEmpty();
+        result.grains = {};
         lastStage = {};
       }
       stage = frame->stage;
-      result.grains.extend(grainBox(*frame));
+      result.grains.add(*frame);
       if (!quantity.empty() && frame->size() > 0)
         for (const double v : grainScalar(*frame, quantity)) {
           run.include(v);

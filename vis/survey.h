@@ -2,8 +2,7 @@
 // A look at all frames before the first is drawn: what makes the pictures of a film comparable.
 
 #include "sim/io/run_folder.h"
-
-#include <Eigen/Geometry>
+#include "vis/fit.h"
 
 #include <array>
 #include <functional>
@@ -16,7 +15,7 @@ struct Survey {
   std::array<double, 2> run{0, 1}; ///< range of the quantity over all frames; 0 to 1 when there is none
   // What happens before the last stage (grains falling in, say) shall set neither scale nor camera of a film.
   std::array<double, 2> lastStage{0, 1}; ///< range of the quantity over the last stage
-  Eigen::AlignedBox3d grains;            ///< around all grains of the last stage
+  GrainExtent grains;                    ///< of the last stage
 };
 
 /// Reads every frame of every source. `quantity` may be empty (no range). `onFrame` is called after each.
