@@ -40,9 +40,12 @@ double harmonic(double a, double b) {
 
 double impactSpeed(const Scene& scene) {
   double fastest = 0.0;
-  for (const FillSpec& fill : scene.fills)
-    for (const char* name : {"velocity"})
-      if (fill.how.parameters.has(name)) fastest = std::max(fastest, fill.how.parameters.vector(name).norm());
+  for (const FillSpec& fill : scene.fills) {
+    const Parameters& p = fill.how.parameters;
+    if (p.has("velocity")) fastest = std::max(fastest, p.vector("velocity").norm());
+    if (p.has("velocities")) // a list of grains
+      for (const Vec3& v : p.vectors("velocities")) fastest = std::max(fastest, v.norm());
+  }
   const Vec3 g = scene.gravity;
   double height = 0.0;
   if (g.norm() > 0.0)

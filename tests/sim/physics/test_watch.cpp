@@ -88,3 +88,13 @@ TEST_CASE("deep overlap, runaway speed, escape and not-a-number stop the run wit
     CHECK_THROWS_WITH(solver.advance(1), Catch::Contains("grain 5 is not a number"));
   }
 }
+
+TEST_CASE("a fast listed grain shortens the step of a Hertzian scene") {
+  SceneText t;
+  t.elasticity = "youngs_modulus = \"50 MPa\"\npoisson_ratio = 0.25";
+  t.normal = R"({ law = "hertz", restitution = 0.8 })";
+  Scene slow = t.scene(), fast = slow;
+  fast.fills.at(0).how.parameters.set("velocities", std::vector<Vec3>{Vec3(20, 0, 0)});
+  // Collision time goes with speed^(-1/5); two grains may meet at twice 20 m/s instead of 1 mm/s.
+  CHECK(DemSolver(fast).stepSize() == Approx(DemSolver(slow).stepSize() * std::pow(1e-3 / 40.0, 0.2)));
+}
