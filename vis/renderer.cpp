@@ -5,6 +5,8 @@
 #include "vis/colour_map.h"
 #include "vis/fit.h"
 #include "vis/gl/external_window.h"
+#include "vis/gl/vtk_messages.h"
+#include "vis/grain_colours.h"
 #include "vis/grain_layer.h"
 #include "vis/overlay.h"
 #include "vis/read_back.h"
@@ -19,7 +21,6 @@
 #include <vtkContextScene.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
-#include <vtkOutputWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
@@ -65,60 +66,6 @@ void addLights(vtkRenderer* renderer) {
     light->SetIntensity(intensity);
     renderer->AddLight(light);
   }
-}
-
-/// A range that all grains share, or the shares themselves when species are counted.
-struct Colours {
-  std::vector<Rgb> ofGrain;
-  std::optional<Legend> legend;
-};
-
-Colours coloursOf(const Frame& frame, const Colouring& colouring, const VisibleGrains& grains,
-                  const std::vector<std::size_t>& subset) {
-  Colours result;
-  result.ofGrain.resize(subset.size());
-  if (colouring.quantity.empty()) {
-    Rgb plain;
-    for (int k = 0; k < 3; ++k)
-      plain[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(colouring.plain[k], 0.0, 1.0)));
-    std::fill(result.ofGrain.begin(), result.ofGrain.end(), plain);
-    return result;
-  }
-  Legend legend;
-  legend.name = colouring.quantity;
-  legend.unit = unitOf(colouring.quantity);
-  if (frame.size() == 0) {
-    legend.map = ColourMap(colouring.map);
-    legend.low = colouring.low;
-    legend.high = colouring.high;
-    if (colouring.range != ColourRange::frame) result.legend = legend;
-    return result;
-  }
-  const std::vector<double> values = grainScalar(frame, colouring.quantity);
-  if (colouring.quantity == quantity::species && !frame.speciesNames.empty()) {
-    legend.map = ColourMap("discrete");
-    legend.entries = frame.speciesNames;
-    for (std::size_t k = 0; k < subset.size(); ++k)
-      result.ofGrain[k] = legend.map.ofIndex(std::lround(values[grains.index[subset[k]]]));
-    result.legend = legend;
-    return result;
-  }
-  legend.map = ColourMap(colouring.map);
-  legend.low = colouring.low;
-  legend.high = colouring.high;
-  if (colouring.range == ColourRange::frame) {
-    legend.low = std::numeric_limits<double>::infinity();
-    legend.high = -legend.low;
-    for (const double v : values)
-      if (std::isfinite(v)) legend.low = std::min(legend.low, v), legend.high = std::max(legend.high, v);
-    if (!(legend.low <= legend.high)) legend.low = 0, legend.high = 1;
-  }
-  const double width = legend.high - legend.low;
-  for (std::size_t k = 0; k < subset.size(); ++k)
-    result.ofGrain[k] =
-        legend.map.at(width > 0 ? (values[grains.index[subset[k]]] - legend.low) / width : 0.5);
-  result.legend = legend;
-  return result;
 }
 
 void refuseBadSize(int width, int height) {
@@ -186,6 +133,13 @@ struct Renderer::Impl {
     c->SetClippingRange(camera.orthographic ? near : std::max(near, 1e-3 * far), far);
   }
 
+  /// After a picture: the thread's context is free again, and what VTK complained about is an error.
+  void release() {
+    window->context().release();
+    if (const std::string error = takeVtkError(); !error.empty())
+      throw Error(fmt::format("the picture could not be drawn with {}: {}", window->context().name(), error));
+  }
+
   Image render(const View& view) {
     const auto on = [&](const std::array<double, 3>& ground) {
       scene->SetBackground(ground[0], ground[1], ground[2]);
@@ -211,6 +165,7 @@ struct Renderer::Impl {
 
 Renderer::Renderer(GlBackend backend) {
   const std::lock_guard lock(vtkTurn());
+  keepVtkMessages();
   impl_ = std::make_unique<Impl>(backend);
 }
 
@@ -226,7 +181,7 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   d.height = view.height;
   d.visible = visibleGrains(frame, view);
   const auto subset = evenSubset(d.visible.index.size(), view.maximumGrains);
-  const Colours colours = coloursOf(frame, view.colouring, d.visible, subset);
+  const GrainColours colours = grainColours(frame, view.colouring, d.visible, subset);
   const Eigen::AlignedBox3d box = domainBox(frame);
 
   OverlayContent& over = d.overlay->content;
@@ -259,7 +214,7 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   d.scene->DrawOn();
   d.charts.renderer()->DrawOff();
   Image image = d.render(view);
-  d.window->context().release();
+  d.release();
   return image;
 }
 
@@ -274,7 +229,7 @@ Image Renderer::draw(const analysis::Curve& curve, int width, int height) {
   d.charts.renderer()->DrawOn();
   d.window->Render();
   Image image = readBack(d.window);
-  d.window->context().release();
+  d.release();
   return image;
 }
 

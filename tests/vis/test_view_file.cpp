@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <fstream>
+
 using namespace sandglass;
 using namespace sandglass::vis;
 
@@ -85,6 +87,17 @@ TEST_CASE("each fault of a view is a sentence") {
     INFO(toml);
     CHECK_THROWS_WITH(parseView(toml, "v.toml"), Catch::Contains(sentence));
   }
+}
+
+TEST_CASE("the view file of the documentation is the default view and a clip plane") {
+  std::ifstream in(SANDGLASS_SOURCE_DIR "/docs/pictures.md");
+  const std::string page((std::istreambuf_iterator<char>(in)), {});
+  const auto begin = page.find("```toml\n"), end = page.find("```\n", begin + 8);
+  REQUIRE(end != std::string::npos);
+  View view = parseView(page.substr(begin + 8, end - begin - 8), "docs/pictures.md");
+  CHECK(view.clips.size() == 1);
+  view.clips.clear();
+  CHECK(writeView(view) == writeView(View{}));
 }
 
 TEST_CASE("all faults of a view come at once") {
