@@ -227,10 +227,11 @@ namespace {
 
 template <int stride>
 void gather(GrainStore& grains, const PairList& list, std::int64_t first, std::int64_t last) {
+  const double* outputs = list.outputs();
   for (std::int64_t i = first; i < last; ++i) {
     double f[3] = {0, 0, 0}, t[3] = {0, 0, 0}, m[3] = {0, 0, 0};
     for (const std::int32_t* e = list.begin(i); e != list.end(i); ++e) {
-      const double* out = const_cast<PairList&>(list).output(*e >> 1);
+      const double* out = outputs + static_cast<std::size_t>(*e >> 1) * stride;
       const double sign = *e & 1 ? -1.0 : 1.0;
       for (int k = 0; k < 3; ++k)
         f[k] += sign * out[k];

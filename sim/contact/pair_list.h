@@ -42,6 +42,7 @@ public:
   std::uint8_t* live() { return live_.data(); }
   double* history(std::size_t p) { return history_.data() + p * historySize_; }
   double* output(std::size_t p) { return output_.data() + p * outputSize_; }
+  const double* outputs() const { return output_.data(); }
   int historySize() const { return historySize_; }
   int outputSize() const { return outputSize_; }
 
