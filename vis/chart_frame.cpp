@@ -54,10 +54,10 @@ bool ChartFrame::hasKey() const {
 std::vector<std::string> ChartFrame::definitionLines() const {
   std::string text = curve.definition;
   if (curve.frames > 1) text += fmt::format("{}{} frames averaged.", text.empty() ? "" : " ", curve.frames);
-  // DejaVu Sans is about 0.56 of its size wide on average.
+  // DejaVu Sans is about 0.5 of its size wide on average.
   const float s = chartScale(width, height);
   const auto longest = static_cast<std::size_t>(
-      std::max(20.0F, (static_cast<float>(width) - 2 * margin * s) / (0.56F * smallSize * s)));
+      std::max(20.0F, (static_cast<float>(width) - 2 * margin * s) / (0.51F * smallSize * s)));
   std::vector<std::string> lines;
   std::istringstream words(text);
   for (std::string word; words >> word;) {

@@ -92,7 +92,7 @@ void addLine(vtkChartXY* chart, const Points& p, const SeriesStyle& style, float
   vtkNew<vtkPlotLine> line;
   line->SetInputData(table({p.x, p.y}), 0, 1);
   line->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
-  line->SetWidth(2 * s);
+  line->SetWidth((style.line == vtkPen::SOLID_LINE ? 2.0F : 2.5F) * s); // broken lines are paler
   line->GetPen()->SetLineType(style.line);
   line->SetMarkerStyle(style.marker);
   line->SetMarkerSize(7 * s);

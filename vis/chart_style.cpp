@@ -11,7 +11,7 @@ SeriesStyle styleOf(const analysis::Series& series, std::size_t index) {
   static constexpr Rgb colours[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115}, {204, 121, 167},
                                     {230, 159, 0}, {86, 180, 233}, {60, 60, 60}};
   static constexpr int lines[] = {vtkPen::SOLID_LINE, vtkPen::DASH_LINE, vtkPen::DASH_DOT_LINE,
-                                  vtkPen::DOT_LINE};
+                                  vtkPen::DENSE_DOT_LINE};
   static constexpr int markers[] = {vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND,
                                     vtkPlotPoints::CROSS};
   SeriesStyle style{colours[index % std::size(colours)], lines[index % std::size(lines)],

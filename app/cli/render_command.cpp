@@ -115,6 +115,10 @@ int render(const RenderOptions& options) {
         fmt::format("--reference compares one picture and {} are asked for; choose one with --at or --frames",
                     tasks.size()));
   if (!options.folder.empty()) fs::create_directories(options.folder);
+  if (options.colour.empty() && options.viewFile.empty()) { // the default quantity need not be there
+    const FramePtr first = tasks.front().source->load(tasks.front().frame);
+    if (first->size() > 0 && !first->has(quantity::velocity)) view.colouring.quantity.clear();
+  }
 
   // The colours of a film must mean the same from one picture to the next.
   const bool filmRange = options.range.empty() && options.viewFile.empty() && !options.movie.empty();
