@@ -53,7 +53,8 @@ void Session::start(bool paused) {
   options.paused = paused;
   options.resume = current_.canResume;
   if (current_.runFolder.empty()) {
-    current_.runFolder = newRunFolder(options_.runsFolder, current_.path);
+    current_.runFolder =
+        options_.folder.empty() ? newRunFolder(options_.runsFolder, current_.path) : options_.folder;
     options_.folder.clear(); // the next scene gets one of its own
   }
   options.folder = current_.runFolder;
@@ -62,6 +63,7 @@ void Session::start(bool paused) {
     current_.series.clear();
   }
   resuming_ = options.resume;
+  running_ = true;
   simulation_ = std::make_unique<Simulation>(*current_.scene, options, current_.store);
   connect(simulation_.get(), &Simulation::changed, this, &Session::fetch);
   connect(simulation_.get(), &Simulation::finished, this, &Session::ended);
@@ -88,11 +90,13 @@ void Session::stop() {
 }
 
 void Session::stopAndWait() {
+  running_ = false;
   simulation_.reset();
   retired_.clear();
 }
 
 void Session::retire() {
+  running_ = false;
   if (!simulation_) return;
   simulation_->disconnect(this);
   simulation_->stop();
@@ -125,6 +129,7 @@ void Session::fetch() {
 void Session::ended(bool complete, const QString& fault) {
   if (sender() != simulation_.get()) return;
   fetch();
+  running_ = false;
   current_.canResume = hasCheckpoint(current_.runFolder);
   const auto store = current_.store;
   pool_.start([store] {

@@ -33,7 +33,7 @@ public:
   bool isOpening() const { return opened_ != opening_; }
   bool isOpen() const { return !current_.path.empty(); }
 
-  bool runs() const { return simulation_ && !simulation_->isFinished(); }
+  bool runs() const { return running_; }
   bool isPaused() const { return runs() && simulation_->isPaused(); }
   bool canStart() const { return current_.scene && !runs(); }
   void start(bool paused = false); ///< goes on where a run has a checkpoint
@@ -66,7 +66,7 @@ private:
   FramePtr live_;
   std::optional<Progress> progress_;
   quint64 opening_ = 0, opened_ = 0; ///< the newest order wins
-  bool resuming_ = false;
+  bool resuming_ = false, running_ = false;
   QThreadPool pool_;
 };
 

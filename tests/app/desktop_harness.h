@@ -1,0 +1,137 @@
+#pragma once
+// A window that a test drives with real key and mouse events, without a display.
+
+#include "app/desktop/background.h"
+#include "app/desktop/main_window.h"
+#include "app/desktop/picture_view.h"
+#include "app/desktop/style.h"
+#include "sim/scene/scene.h"
+#include "tests/sim/temporary_folder.h"
+
+#include <QApplication>
+#include <QElapsedTimer>
+#include <QtTest>
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace sandglass::test {
+
+/// The one application of the test program.
+inline QApplication& application() {
+  static QApplication* app = [] {
+    setenv("QT_QPA_PLATFORM", "offscreen", 0);
+    desktop::limitRasteriserThreads();
+    static int argc = 1;
+    static char name[] = "tests_desktop";
+    static char* argv[] = {name, nullptr};
+    auto* made = new QApplication(argc, argv); // lives as long as the program
+    desktop::setStyle(*made);
+    return made;
+  }();
+  return *app;
+}
+
+/// Handles events until the condition holds; false when it does not within the time.
+template <class Condition> bool waitFor(Condition&& condition, double seconds = 30) {
+  QElapsedTimer since;
+  since.start();
+  while (!condition()) {
+    if (since.elapsed() > 1000 * seconds) return false;
+    QCoreApplication::processEvents(QEventLoop::AllEvents, 5);
+    QThread::msleep(1);
+  }
+  return true;
+}
+
+inline void handleEvents(double seconds) {
+  waitFor([] { return false; }, seconds);
+}
+
+/// A shown window whose runs go into `folder`.
+class Desktop {
+public:
+  explicit Desktop(const std::filesystem::path& runFolder, int threads = 1) {
+    application();
+    desktop::WindowOptions options;
+    options.session.folder = runFolder;
+    options.session.threads = threads;
+    options.asksNothing = true;
+    window = std::make_unique<desktop::MainWindow>(options);
+    window->resize(1000, 700);
+    window->show();
+    QApplication::setActiveWindow(window.get()); // short cuts belong to the active window
+  }
+
+  bool open(const std::filesystem::path& path) {
+    window->open(QString::fromStdString(path.string()));
+    return waitFor([&] { return !window->session().isOpening(); });
+  }
+  desktop::PictureView& picture() { return *child<desktop::PictureView>("picture"); }
+  template <class Widget> Widget* child(const char* name) {
+    auto* found = window->findChild<Widget*>(name);
+    if (!found) throw std::logic_error(std::string("the window has no ") + name);
+    return found;
+  }
+  void key(int key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+    QTest::keyClick(window.get(), static_cast<Qt::Key>(key), modifiers);
+  }
+  desktop::Session& session() { return window->session(); }
+
+  std::unique_ptr<desktop::MainWindow> window;
+};
+
+/// Beads of 2 mm, `side` by `side` by `layers`, on a cube lattice with hair gaps, that fall and spread for
+/// `duration` [s]: dense from the first step on.
+inline std::filesystem::path writeBed(const std::filesystem::path& file, int side, int layers,
+                                      double duration) {
+  const double spacing = 2.02, half = side * spacing / 2, height = layers * spacing;
+  std::ofstream(file) << fmt::format(R"(
+title = "A bed of beads"
+seed = 11
+[domain]
+lower = ["{0:.6f} mm", "{0:.6f} mm", "-1 mm"]
+upper = ["{1:.6f} mm", "{1:.6f} mm", "{2:.6f} mm"]
+[[material]]
+name = "glass"
+density = "2500 kg/m^3"
+[[contact]]
+between = ["glass", "glass"]
+normal = {{ law = "linear", collision_time = "5e-4 s", restitution = 0.9 }}
+tangential = {{ law = "spring", friction = 0.3, stiffness_ratio = 0.2857142857142857 }}
+[[species]]
+name = "bead"
+material = "glass"
+size = {{ distribution = "single", diameter = "2 mm" }}
+[[wall]]
+name = "box"
+kind = "box"
+material = "glass"
+lower = ["{0:.6f} mm", "{0:.6f} mm", "0"]
+upper = ["{1:.6f} mm", "{1:.6f} mm", "{2:.6f} mm"]
+open = ["z+"]
+[[fill]]
+kind = "lattice"
+species = "bead"
+lower = ["{0:.6f} mm", "{0:.6f} mm", "0"]
+upper = ["{1:.6f} mm", "{1:.6f} mm", "{3:.6f} mm"]
+structure = "sc"
+spacing = "{4:.6f} mm"
+velocity_spread = ["0.05 m/s", "0.05 m/s", "0.05 m/s"]
+[[stage]]
+name = "settle"
+until = {{ duration = "{5} s" }}
+[[probe]]
+name = "energy"
+kind = "energies"
+interval = "1 ms"
+[output]
+frame_interval = "5 ms"
+quantities = ["velocity"]
+)",
+                                     -half - 1e-3, half + 1e-3, 2 * height, height + 1e-3, spacing, duration);
+  return file;
+}
+
+} // namespace sandglass::test

@@ -1,0 +1,226 @@
+// The window under real key and mouse events, on the offscreen platform of Qt.
+
+#include "desktop_harness.h"
+
+#include "app/desktop/chart_panel.h"
+#include "sim/io/run_folder.h"
+#include "tests/sim/frame_equality.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QMimeData>
+#include <QPlainTextEdit>
+#include <QSlider>
+
+#include <catch2/catch.hpp>
+
+#include <set>
+
+using namespace sandglass;
+using namespace sandglass::test;
+
+namespace {
+
+double timeShown(Desktop& desktop) {
+  return desktop.window->shownFrame() ? desktop.window->shownFrame()->time : -1;
+}
+
+} // namespace
+
+TEST_CASE("A scene is opened, run, paused, stepped, stopped and finished by keys", "[desktop]") {
+  TemporaryFolder folder("desktop-keys");
+  Desktop desktop(folder / "run");
+  REQUIRE(desktop.open(writeBed(folder / "bed.toml", 8, 8, 0.2)));
+  REQUIRE(desktop.window->bannerText().toStdString() == "");
+  REQUIRE(desktop.window->windowTitle().startsWith("A bed of beads"));
+  REQUIRE_FALSE(desktop.session().runs());
+
+  desktop.key(Qt::Key_F5);
+  REQUIRE(desktop.session().runs());
+  REQUIRE(waitFor([&] { return timeShown(desktop) > 0; }));
+
+  desktop.key(Qt::Key_Space);
+  REQUIRE(desktop.session().isPaused());
+  handleEvents(0.5); // the group of steps that was going on, and its picture
+  const auto paused = desktop.session().liveFrame()->step;
+  handleEvents(0.3);
+  REQUIRE(desktop.session().liveFrame()->step == paused);
+
+  desktop.key(Qt::Key_S);
+  REQUIRE(waitFor([&] { return desktop.session().liveFrame()->step == paused + 1; }));
+  desktop.key(Qt::Key_S, Qt::ShiftModifier);
+  REQUIRE(waitFor([&] { return desktop.session().liveFrame()->step == paused + 101; }));
+  handleEvents(0.3);
+  REQUIRE(desktop.session().liveFrame()->step == paused + 101);
+
+  desktop.key(Qt::Key_F5, Qt::ShiftModifier);
+  REQUIRE(waitFor([&] { return !desktop.session().runs(); }));
+  REQUIRE(desktop.session().current().canResume);
+
+  desktop.key(Qt::Key_F5); // goes on from the checkpoint
+  REQUIRE(waitFor([&] { return !desktop.session().runs(); }));
+  REQUIRE(desktop.session().progress()->fraction == 1);
+  REQUIRE(desktop.window->bannerText().toStdString() == "");
+  // 0.2 s of a frame each 5 ms, the first and the last included.
+  REQUIRE(waitFor([&] { return openFrames(folder / "run")->size() == 41; }));
+  REQUIRE(waitFor([&] { return timeShown(desktop) == Approx(0.2).epsilon(1e-6); }));
+}
+
+TEST_CASE("Mouse and keys move the camera, the slider moves in time", "[desktop]") {
+  TemporaryFolder folder("desktop-mouse");
+  {
+    RunOptions options;
+    options.folder = folder / "run";
+    options.threads = 1;
+    Run(readScene(writeBed(folder / "bed.toml", 6, 6, 0.05).string()), options).execute();
+  }
+  Desktop desktop(folder / "unused");
+  REQUIRE(desktop.open(folder / "run"));
+  auto& picture = desktop.picture();
+  REQUIRE(waitFor([&] { return desktop.window->isSettled() && !picture.image().isNull(); }));
+  REQUIRE(timeShown(desktop) == Approx(0.05).epsilon(1e-6)); // the last frame
+  const QImage before = picture.image();
+  const auto settle = [&] { return waitFor([&] { return desktop.window->isSettled(); }); };
+
+  const QPoint middle = picture.rect().center();
+  QTest::mousePress(&picture, Qt::LeftButton, {}, middle);
+  for (int k = 1; k <= 10; ++k)
+    QTest::mouseMove(&picture, middle + QPoint(12 * k, 3 * k));
+  // QTest's moves carry no buttons on the offscreen platform; a real one does.
+  QMouseEvent drag(QEvent::MouseMove, middle + QPoint(130, 30), Qt::NoButton, Qt::LeftButton, {});
+  QCoreApplication::sendEvent(&picture, &drag);
+  QTest::mouseRelease(&picture, Qt::LeftButton, {}, middle + QPoint(130, 30));
+  REQUIRE(settle());
+  REQUIRE(desktop.window->view().camera.preset.empty());
+  REQUIRE(picture.image() != before);
+  const vis::Camera turned = desktop.window->view().camera;
+
+  QWheelEvent wheel(middle, picture.mapToGlobal(middle), {}, QPoint(0, 120), Qt::NoButton, {},
+                    Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(&picture, &wheel);
+  REQUIRE(settle());
+  const auto distance = [](const vis::Camera& c) { return (c.position - c.target).norm(); };
+  REQUIRE(distance(desktop.window->view().camera) == Approx(distance(turned) / 1.15));
+
+  desktop.key(Qt::Key_F);
+  handleEvents(0.4); // the wheel comes to rest
+  desktop.key(Qt::Key_F);
+  REQUIRE(settle());
+  REQUIRE(picture.image() == before);
+
+  desktop.key(Qt::Key_Comma);
+  REQUIRE(settle());
+  REQUIRE(timeShown(desktop) == Approx(0.045).epsilon(1e-3));
+  desktop.key(Qt::Key_Home);
+  REQUIRE(settle());
+  REQUIRE(timeShown(desktop) == 0);
+  desktop.child<QSlider>("time")->setValue(5);
+  REQUIRE(settle());
+  REQUIRE(timeShown(desktop) == Approx(0.025).epsilon(1e-3));
+}
+
+TEST_CASE("Colour, range and cut change the picture; panels show curves", "[desktop]") {
+  TemporaryFolder folder("desktop-view");
+  Desktop desktop(folder / "run");
+  REQUIRE(desktop.open(writeBed(folder / "bed.toml", 6, 6, 0.05)));
+  desktop.key(Qt::Key_F5);
+  REQUIRE(waitFor([&] { return desktop.session().progress() && !desktop.session().runs(); }));
+  REQUIRE(waitFor([&] { return desktop.window->isSettled() && timeShown(desktop) > 0.049; }));
+  REQUIRE(desktop.child<desktop::ChartPanel>("energies")->charts() > 0);
+  REQUIRE(desktop.child<desktop::ChartPanel>("energies")->curve()->series.size() == 3);
+  REQUIRE(waitFor([&] { return desktop.child<desktop::ChartPanel>("gr")->charts() > 0; }));
+
+  auto& picture = desktop.picture();
+  QImage last = picture.image();
+  const auto changed = [&] {
+    const bool settled = waitFor([&] { return desktop.window->isSettled(); });
+    const bool other = picture.image() != last;
+    last = picture.image();
+    return settled && other;
+  };
+  auto* quantity = desktop.child<QComboBox>("quantity");
+  REQUIRE(quantity->findText("z") >= 0); // what the frame has, not a fixed list
+  quantity->setCurrentText("z");
+  REQUIRE(changed());
+  QTest::mouseClick(desktop.child<QCheckBox>("clip"), Qt::LeftButton, {}, QPoint(8, 8));
+  REQUIRE(desktop.window->view().clips.size() == 1);
+  REQUIRE(changed());
+  QTest::mouseClick(desktop.child<QCheckBox>("clipFlip"), Qt::LeftButton, {}, QPoint(8, 8));
+  REQUIRE(desktop.window->view().clips[0].normal == -Vec3::UnitX());
+  REQUIRE(changed());
+  desktop.child<QComboBox>("range")->setCurrentIndex(1);
+  REQUIRE(waitFor([&] { return desktop.window->isSettled() && picture.image() != last; }));
+  // Heights fall, so that the highest place of the run is in the first frame: above 5.5 spacings.
+  REQUIRE(desktop.window->view().colouring.high > 0.011);
+}
+
+TEST_CASE("Faults are sentences in the window, which keeps what was open", "[desktop]") {
+  TemporaryFolder folder("desktop-faults");
+  Desktop desktop(folder / "run");
+  REQUIRE(desktop.open(writeBed(folder / "bed.toml", 4, 4, 0.05)));
+  std::ofstream(folder / "bad.toml") << "title = \"bad\"\ngravty = 3\n";
+  REQUIRE(desktop.open(folder / "bad.toml"));
+  REQUIRE(desktop.window->bannerText().contains("gravty"));
+  REQUIRE(desktop.child<QPlainTextEdit>("log")->toPlainText().contains("gravty"));
+  REQUIRE(desktop.session().current().path == folder / "bed.toml");
+
+  REQUIRE(desktop.open(folder / "missing"));
+  REQUIRE(desktop.window->bannerText().contains("there is no such file or folder"));
+  REQUIRE(desktop.open(folder / "bed.toml"));
+  REQUIRE(desktop.window->bannerText().toStdString() == "");
+}
+
+TEST_CASE("Files are dropped into the window", "[desktop]") {
+  TemporaryFolder folder("desktop-drop");
+  Desktop desktop(folder / "run");
+  QMimeData data;
+  const auto file = writeBed(folder / "bed.toml", 4, 4, 0.05);
+  data.setUrls({QUrl::fromLocalFile(QString::fromStdString(file.string()))});
+  QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, {});
+  QCoreApplication::sendEvent(desktop.window.get(), &enter);
+  REQUIRE(enter.isAccepted());
+  QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, {});
+  QCoreApplication::sendEvent(desktop.window.get(), &drop);
+  REQUIRE(desktop.session().isOpening());
+  REQUIRE(waitFor([&] { return !desktop.session().isOpening(); }));
+  REQUIRE(desktop.window->bannerText().toStdString() == "");
+  REQUIRE(desktop.session().current().path == file);
+}
+
+TEST_CASE("Every command has a name, a tip and keys of its own; the cheat sheet lists them", "[desktop]") {
+  TemporaryFolder folder("desktop-commands");
+  Desktop desktop(folder / "run");
+  std::set<QString> used;
+  for (const auto& row : desktop.window->commands().rows()) {
+    INFO(row.id.toStdString());
+    REQUIRE(!row.name.isEmpty());
+    REQUIRE(!row.toolTip.isEmpty());
+    for (const auto& key : row.keys) {
+      REQUIRE(!key.isEmpty());
+      REQUIRE(used.insert(key.toString()).second);
+    }
+  }
+  desktop.key(Qt::Key_F1);
+  auto* sheet = desktop.child<QDialog>("cheatSheet");
+  REQUIRE(sheet->isVisible());
+  const QString text = desktop.window->commands().cheatSheet({});
+  for (const auto& row : desktop.window->commands().rows())
+    if (!row.keys.isEmpty())
+      REQUIRE(text.contains(row.keys.first().toString(QKeySequence::NativeText).toHtmlEscaped()));
+}
+
+TEST_CASE("Closing the window stops the run and keeps its checkpoint", "[desktop]") {
+  TemporaryFolder folder("desktop-close");
+  Desktop desktop(folder / "run");
+  REQUIRE(desktop.open(writeBed(folder / "bed.toml", 8, 8, 50)));
+  desktop.key(Qt::Key_F5);
+  REQUIRE(waitFor([&] { return timeShown(desktop) > 0; }));
+  desktop.window->close();
+  REQUIRE_FALSE(desktop.session().runs());
+  desktop.window.reset();
+  Desktop again(folder / "unused");
+  REQUIRE(again.open(folder / "run"));
+  REQUIRE(again.window->bannerText().toStdString() == "");
+  REQUIRE(again.session().current().canResume);
+}
