@@ -13,10 +13,10 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double shortestInterval = 0.2; ///< [s] between pictures while a simulation runs
-constexpr double chartInterval = 1.0;    ///< [s] between charts while a simulation runs
-constexpr double share = 0.5;            ///< of one core, for drawing while a simulation runs
-constexpr int nice = 3;                  ///< enough to let the simulation go first, too little to starve
+constexpr double shortestInterval = 0.25; ///< [s] between pictures while a simulation runs
+constexpr double chartInterval = 1.5;     ///< [s] between charts while a simulation runs
+constexpr double share = 0.35;            ///< of one core, for drawing while a simulation runs
+constexpr int nice = 1;                   ///< the pace spares the simulation; more would starve the picture
 
 } // namespace
 
@@ -97,8 +97,8 @@ void DrawingThread::rest(double seconds, double processorSeconds) {
   if (!simulationRuns_) return;
   const auto now = Clock::now();
   const auto after = [&](double s) { return now + std::chrono::duration_cast<Clock::duration>(Seconds(s)); };
-  const double pause = std::max(processorSeconds * (1 / share - 1), shortestInterval - seconds);
-  pictureFrom_ = std::max(pictureFrom_, after(pause));
+  const double interval = std::max(processorSeconds / share, chartLast_ ? 0 : shortestInterval);
+  pictureFrom_ = std::max(pictureFrom_, after(interval - seconds));
   if (chartLast_) chartFrom_ = after(chartInterval);
 }
 

@@ -60,6 +60,7 @@ WindowTurn windowTurn(const std::filesystem::path& scene, const std::filesystem:
   desktop.open(scene);
   SpeedMeter meter;
   std::set<const Frame*> frames;
+  Clock::time_point firstPicture, lastPicture;
   std::vector<FramePtr> kept; // so that no address comes twice
   QObject::connect(&desktop.session(), &desktop::Session::progressArrived,
                    [&] { meter.see(*desktop.session().progress()); });
@@ -72,7 +73,10 @@ WindowTurn windowTurn(const std::filesystem::path& scene, const std::filesystem:
     turn.stall = std::max(turn.stall, 1e-9 * static_cast<double>(beat.nsecsElapsed()) - 5e-3);
     beat.start();
     const auto frame = desktop.window->shownFrame();
-    if (frame && frames.insert(frame.get()).second) kept.push_back(frame);
+    if (!frame || !frames.insert(frame.get()).second) return;
+    kept.push_back(frame);
+    lastPicture = Clock::now();
+    if (frames.size() == 1) firstPicture = lastPicture;
   });
   QEventLoop loop;
   QObject::connect(&desktop.session(), &desktop::Session::runEnded, &loop, &QEventLoop::quit);
@@ -81,17 +85,20 @@ WindowTurn windowTurn(const std::filesystem::path& scene, const std::filesystem:
   heart.start();
   loop.exec();
   turn.speed = meter.speed();
-  turn.pictures = static_cast<double>(frames.size()) / meter.seconds();
+  // From the first to the last: the shaders of the first are compiled while the run begins.
+  const std::chrono::duration<double> shown = lastPicture - firstPicture;
+  turn.pictures = frames.size() > 1 ? static_cast<double>(frames.size() - 1) / shown.count() : 0;
   return turn;
 }
 
-void measure(double duration, int turns) {
+void measure(double duration, int turns, bool all) {
   TemporaryFolder folder("desktop-speed");
   application();
   const auto scene = writeBed(folder / "bed.toml", 27, 28, duration); // 20,412 grains
   double headless = 0;
   WindowTurn best{0, 0, 1e9};
-  for (int k = 0; k < turns; ++k) {
+  const auto isGood = [&] { return best.stall < 0.1 && best.pictures >= 2 && best.speed >= 0.7 * headless; };
+  for (int k = 0; k < turns && (all || !isGood()); ++k) {
     const double without = headlessSpeed(scene, folder / fmt::format("headless{}", k));
     const WindowTurn with = windowTurn(scene, folder / fmt::format("window{}", k));
     fmt::print("turn {}: headless {:.2f}, with the window {:.2f} million grain-steps/s ({:.0f} %); {:.1f} "
@@ -112,9 +119,9 @@ void measure(double duration, int turns) {
 } // namespace
 
 TEST_CASE("While 20,000 grains run, the window answers, shows and leaves the run its speed", "[desktop]") {
-  measure(0.01, 3);
+  measure(0.015, 4, false);
 }
 
 TEST_CASE("The same, longer, for the numbers in the documentation", "[.measure]") {
-  measure(0.05, 5);
+  measure(0.04, 5, true);
 }
