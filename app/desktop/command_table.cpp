@@ -69,20 +69,36 @@ void CommandTable::fill(QToolBar* bar) const {
 }
 
 QString CommandTable::cheatSheet(const std::vector<std::pair<QString, QString>>& gestures) const {
-  QStringList menus;
-  for (const auto& row : rows_)
-    if (!row.keys.isEmpty() && !menus.contains(row.menu)) menus << row.menu;
-  QString html;
-  for (const auto& menu : menus) {
-    html += QString("<h3>%1</h3><table>").arg(plain(menu).toHtmlEscaped());
-    for (const auto& row : rows_)
-      if (row.menu == menu && !row.keys.isEmpty()) html += line(plain(row.name), keysOf(row));
-    html += "</table>";
+  QStringList titles, blocks;
+  for (const auto& row : rows_) {
+    if (row.keys.isEmpty()) continue;
+    if (!titles.contains(row.menu)) {
+      titles << row.menu;
+      blocks << QString();
+    }
+    blocks[titles.indexOf(row.menu)] += line(plain(row.name), keysOf(row));
   }
-  html += "<h3>Mouse</h3><table>";
+  titles << "Mouse";
+  blocks << QString();
   for (const auto& [what, how] : gestures)
-    html += line(what, how);
-  return html + "</table>";
+    blocks.last() += line(what, how);
+
+  // Two columns of about the same number of lines.
+  const auto lines = [](const QString& text) { return text.count("<tr>") + 2; };
+  int all = 0, done = 0;
+  for (const auto& block : blocks)
+    all += lines(block);
+  QString html = "<table><tr><td style='padding-right:36px'>";
+  bool second = false;
+  for (int k = 0; k < titles.size(); ++k) {
+    if (!second && 2 * done + lines(blocks[k]) > all) {
+      html += "</td><td>";
+      second = true;
+    }
+    done += lines(blocks[k]);
+    html += QString("<h3>%1</h3><table>%2</table>").arg(plain(titles[k]).toHtmlEscaped(), blocks[k]);
+  }
+  return html + "</td></tr></table>";
 }
 
 } // namespace sandglass::desktop

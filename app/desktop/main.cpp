@@ -12,6 +12,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 namespace {
 
@@ -69,10 +70,12 @@ int show(const Arguments& a, int argc, char** argv) {
   options.session.folder = a.folder;
   options.backend = backendOf(a.backend);
   options.asksNothing = !a.screenshot.empty();
+  std::optional<sandglass::vis::View> view;
+  if (!a.viewFile.empty()) view = sandglass::vis::readView(a.viewFile);
   MainWindow window(options);
   window.resize(sizeOf(a.size));
-  if (!a.viewFile.empty()) window.showView(sandglass::vis::readView(a.viewFile));
   QObject::connect(&window.session(), &Session::opened, &window, [&] {
+    if (view) window.showView(*view);
     if (a.at >= 0) window.showTime(a.at);
     if (a.run) window.session().start();
   });

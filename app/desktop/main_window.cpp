@@ -188,7 +188,7 @@ void MainWindow::onOpened() {
   picture_->clear();
   picture_->setHint(title.isEmpty() ? name : title, "Press F5 or Space to run this scene.");
   for (auto& [id, panel] : charts_)
-    panel->clear("");
+    panel->clear(id == "gr" ? "g(r) of the frame that is shown." : "");
   time_->setFrames(current.store->size(), false);
   time_->choose(std::nullopt);
   if (current.time && current.store->size() > 0) time_->choose(current.store->nearest(*current.time));

@@ -26,6 +26,8 @@ void readSceneInto(Opened& opened, const fs::path& file) {
   opened.scene = readScene(file.string());
   opened.sceneText = QString::fromStdString(textOf(file));
   opened.resolved = QString::fromStdString(writeScene(*opened.scene));
+  const fs::path view = file.parent_path() / "view.toml";
+  if (fs::exists(view)) opened.view = vis::readView(view.string());
 }
 
 bool isRunFolder(const fs::path& folder) {

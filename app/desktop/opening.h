@@ -23,7 +23,7 @@ struct Opened {
   std::filesystem::path runFolder;   ///< empty for a scene that was not run
   std::shared_ptr<FrameStore> store; ///< may be empty, never null
   ProbeSeries series;
-  std::optional<vis::View> view; ///< that of an opened picture
+  std::optional<vis::View> view; ///< of the picture that was opened, or of view.toml beside the scene
   std::optional<double> time;    ///< [s], frame to show; absent: the last one
   bool canResume = false;        ///< there is a checkpoint
 };

@@ -13,7 +13,7 @@ namespace sandglass::desktop {
 
 namespace {
 
-constexpr int nice = 15;
+constexpr int nice = 5; // the rest below bounds its share; a higher one would starve it beside a busy run
 constexpr double shortestInterval = 2; ///< [s] between results
 constexpr double restShare = 12;       ///< rests this many times as long as it computed
 

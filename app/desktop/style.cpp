@@ -30,7 +30,6 @@ QStatusBar::item { border: none; }
 QDockWidget { font-weight: 600; }
 QDockWidget::title { background: #e9ebe8; padding: 6px 10px; text-align: left; }
 QDockWidget > QWidget { background: #ffffff; }
-#view { background: #ffffff; }
 QLabel[heading="true"] { font-weight: 600; color: #1f6f78; padding-top: 4px; }
 #banner { background: #fdecea; border: none; border-bottom: 1px solid #f3b8b1; }
 #banner QLabel { color: #8a1c12; }

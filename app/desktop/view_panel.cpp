@@ -36,6 +36,8 @@ QLabel* heading(const QString& text) {
 
 ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   setObjectName("view");
+  setAutoFillBackground(true);
+  setBackgroundRole(QPalette::Base);
   auto* form = new QFormLayout(this);
   form->setContentsMargins(12, 10, 12, 10);
   form->setVerticalSpacing(7);

@@ -92,7 +92,7 @@ void MainWindow::showCheatSheet() {
   auto* column = new QVBoxLayout(dialog);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(scroll);
-  dialog->resize(std::min(text->sizeHint().width() + 40, 620), 640);
+  dialog->resize(text->sizeHint() + QSize(24, 8));
   dialog->show();
 }
 
