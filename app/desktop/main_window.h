@@ -121,6 +121,7 @@ private:
   FramePtr shown_;
   RunRange range_;
   quint64 ordered_ = 0, drawn_ = 0; ///< numbers of pictures
+  bool showsPause_ = false;         ///< on the button that starts and pauses
   bool pairsOutdated_ = false, curvesOutdated_ = false;
   QTimer curveTimer_;
 };

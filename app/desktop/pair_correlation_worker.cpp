@@ -15,7 +15,7 @@ namespace {
 
 constexpr int nice = 5; // the rest below bounds its share; a higher one would starve it beside a busy run
 constexpr double shortestInterval = 2; ///< [s] between results
-constexpr double restShare = 12;       ///< rests this many times as long as it computed
+constexpr double restShare = 20;       ///< rests this many times as long as it computed
 
 } // namespace
 

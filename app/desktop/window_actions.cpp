@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace sandglass::desktop {
 
@@ -30,6 +31,7 @@ void MainWindow::startOrPause() {
 }
 
 void MainWindow::setRunIcon(bool running) {
+  if (std::exchange(showsPause_, running) == running) return; // a new icon lays the tool bar out again
   commands_->action("run.start")->setIcon(icon(running ? "pause" : "run"));
 }
 
