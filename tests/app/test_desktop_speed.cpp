@@ -118,7 +118,7 @@ void measure(double duration, int turns, bool all) {
 } // namespace
 
 TEST_CASE("While 20,000 grains run, the window answers, shows and leaves the run its speed", "[desktop]") {
-  measure(0.015, 4, false);
+  measure(0.02, 4, false);
 }
 
 TEST_CASE("The same, longer, for the numbers in the documentation", "[.measure]") {
