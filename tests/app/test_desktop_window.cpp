@@ -120,7 +120,7 @@ TEST_CASE("Mouse and keys move the camera, the slider moves in time", "[desktop]
   REQUIRE(timeShown(desktop) == Approx(0.025).epsilon(1e-3));
 }
 
-TEST_CASE("Colour, range and cut change the picture; panels show curves", "[desktop]") {
+TEST_CASE("Colour, range and cut change the picture, and panels show curves", "[desktop]") {
   TemporaryFolder folder("desktop-view");
   Desktop desktop(folder / "run");
   REQUIRE(desktop.open(writeBed(folder / "bed.toml", 6, 6, 0.05)));
@@ -188,7 +188,7 @@ TEST_CASE("Files are dropped into the window", "[desktop]") {
   REQUIRE(desktop.session().current().path == file);
 }
 
-TEST_CASE("Every command has a name, a tip and keys of its own; the cheat sheet lists them", "[desktop]") {
+TEST_CASE("Every command has a name, a tip, keys of its own and a place in the cheat sheet", "[desktop]") {
   TemporaryFolder folder("desktop-commands");
   Desktop desktop(folder / "run");
   std::set<QString> used;

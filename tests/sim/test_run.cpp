@@ -200,7 +200,7 @@ TEST_CASE("What a kill left beyond the checkpoint is dropped", "[run]") {
   CHECK_FALSE(fs::exists(folder / "killed" / "frames" / "00099.vtkhdf.part"));
 }
 
-TEST_CASE("Resuming a finished run changes nothing; another scene is refused", "[run]") {
+TEST_CASE("Resuming a finished run changes nothing, and another scene is refused", "[run]") {
   const TemporaryFolder folder("finished");
   Run(ballisticScene(), options(folder / "r")).execute();
   const std::string before = contentOf(folder / "r" / "series.csv");
