@@ -39,6 +39,16 @@ struct ContactBlock {
   std::uint8_t event[capacity]; ///< ContactEvent raised by a gap law
 };
 
+/// Sets what the laws add to back to zero; couples only where somebody reads them.
+inline void clearForces(ContactBlock& b, bool couples) {
+  for (int i = 0; i < b.size; ++i)
+    b.normalForce[i] = b.contactForce[i] = b.stiffness[i] = b.damping[i] = b.ftx[i] = b.fty[i] = b.ftz[i] =
+        0.0;
+  if (couples)
+    for (int i = 0; i < b.size; ++i)
+      b.mx[i] = b.my[i] = b.mz[i] = 0.0;
+}
+
 enum ContactEvent : std::uint8_t { noEvent = 0, birthEvent = 1, deathEvent = 2 };
 
 } // namespace sandglass

@@ -115,6 +115,13 @@ LawStack::LawStack(const Scene& scene) : materials_(static_cast<int>(scene.mater
   }
 }
 
+void LawStack::apply(ContactBlock& block, bool couples) const {
+  clearForces(block, couples);
+  if (events_) std::fill_n(block.event, block.size, noEvent);
+  for (const Entry& entry : entries_)
+    entry.law->apply(block, entry.firstHistory);
+}
+
 void LawStack::add(std::shared_ptr<const Law> law) {
   append(std::move(law), "added", LawRole::gap);
 }

@@ -18,6 +18,9 @@ public:
   /// Adds a law that no scene names; for programs and tests that bring their own.
   void add(std::shared_ptr<const Law> law);
 
+  /// Runs a filled block through all laws, from zero forces. Events of gap laws stay in the block.
+  void apply(ContactBlock& block, bool couples) const;
+
   struct Entry {
     std::shared_ptr<const Law> law;
     std::string name;

@@ -6,26 +6,6 @@
 
 namespace sandglass {
 
-namespace {
-
-/// Sets what the laws add to back to zero.
-void clearForces(ContactBlock& b, bool couples) {
-  for (int i = 0; i < b.size; ++i)
-    b.normalForce[i] = b.contactForce[i] = b.stiffness[i] = b.damping[i] = b.ftx[i] = b.fty[i] = b.ftz[i] =
-        0.0;
-  if (couples)
-    for (int i = 0; i < b.size; ++i)
-      b.mx[i] = b.my[i] = b.mz[i] = 0.0;
-}
-
-} // namespace
-
-void PairForces::applyLaws(ContactBlock& block) const {
-  clearForces(block, laws_.readsSpin());
-  for (const auto& entry : laws_.entries())
-    entry.law->apply(block, entry.firstHistory);
-}
-
 void PairForces::fill(const GrainStore& grains, PairList& list, const std::int32_t* index, int count,
                       double dt, ContactBlock& b) const {
   b.size = count;

@@ -47,8 +47,6 @@ public:
   /// Fills geometry and motion of the pairs in `index[0..count)`.
   void fill(const GrainStore& grains, PairList& list, const std::int32_t* index, int count, double dt,
             ContactBlock& block) const;
-  /// Runs the laws over a filled block.
-  void applyLaws(ContactBlock& block) const;
 
 private:
   template <bool periodic>
@@ -72,7 +70,7 @@ void PairForces::visitContacts(const GrainStore& grains, PairList& list, Visit&&
   int count = 0;
   const auto flushAll = [&] {
     fill(grains, list, index, count, 0.0, block);
-    applyLaws(block);
+    laws_.apply(block, laws_.readsSpin());
     for (int c = 0; c < count; ++c)
       visit(static_cast<std::size_t>(index[c]), block, c);
     count = 0;

@@ -17,7 +17,8 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
         for (std::size_t w = 0; w < walls.size(); ++w) {
           if (!walls[w].active) continue;
           WallShape::Touches touches;
-          walls[w].shape->touches(grains.place[i].vec(), grains.place[i].w + range + grains.listed[i].w, touches);
+          walls[w].shape->touches(grains.place[i].vec(), grains.place[i].w + range + grains.listed[i].w,
+                                  touches);
           if (touches.count > 0)
             found[c].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
         }
@@ -130,16 +131,6 @@ void WallContacts::fillOne(const GrainStore& grains, const SolverWall& wall, std
     b.history[k][c] = history[k];
 }
 
-void WallContacts::applyLaws(ContactBlock& b) const {
-  for (int c = 0; c < b.size; ++c) {
-    b.normalForce[c] = b.contactForce[c] = b.stiffness[c] = b.damping[c] = 0.0;
-    b.ftx[c] = b.fty[c] = b.ftz[c] = b.mx[c] = b.my[c] = b.mz[c] = 0.0;
-    b.event[c] = noEvent;
-  }
-  for (const auto& entry : laws_.entries())
-    entry.law->apply(b, entry.firstHistory);
-}
-
 void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>& walls, double dt,
                         Parallel& parallel, DeepestOverlap& deepest) {
   std::mutex merge;
@@ -154,7 +145,7 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
         DeepestOverlap worst;
         block.size = 0;
         const auto flush = [&] {
-          applyLaws(block);
+          laws_.apply(block, true);
           int slot = 0;
           for (int c = 0; c < block.size; ++c) {
             const std::size_t k = owner[c];

@@ -25,7 +25,8 @@ class WallContacts {
 public:
   explicit WallContacts(const LawStack& laws) : laws_(laws) {}
 
-  /// Lists grains within radius + range + allowed movement of an active wall. Histories are carried by (grain id, wall).
+  /// Lists grains within radius + range + allowed movement of an active wall. Histories are carried by (grain
+  /// id, wall).
   void build(const GrainStore& grains, const std::vector<SolverWall>& walls, double margin,
              Parallel& parallel);
 
@@ -64,7 +65,6 @@ private:
               double reach, WallShape::Touches& out) const;
   void fillOne(const GrainStore& grains, const SolverWall& wall, std::int32_t grain, const WallTouch& touch,
                const double* history, ContactBlock& block, int c) const;
-  void applyLaws(ContactBlock& block) const;
   /// Row of history that feature `f` goes on with: its own, or one whose feature has just ended.
   void matchHistories(std::size_t candidate, const WallShape::Touches& now, double* histories) const;
 
@@ -92,7 +92,7 @@ void WallContacts::visitContacts(const GrainStore& grains, const std::vector<Sol
     for (int c = 0; c < now.count; ++c)
       fillOne(grains, walls[at.wall], at.grain, now.at[c], histories.data() + c * laws_.historySize(), block,
               c);
-    applyLaws(block);
+    laws_.apply(block, true);
     for (int c = 0; c < now.count; ++c)
       visit(at.grain, at.wall, block, c, now.at[c]);
   }

@@ -1,5 +1,6 @@
 // sandglass analyze from a run on the disk: files, key numbers, what is left out, refusals.
 
+#include "tests/app/program.h"
 #include "tests/sim/small_hopper.h"
 #include "tests/sim/temporary_folder.h"
 
@@ -17,23 +18,6 @@ using Catch::Contains;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Result {
-  int code = 0;
-  std::string text; ///< standard output and standard error
-};
-
-Result program(const std::string& arguments) {
-  const std::string command = std::string(SANDGLASS_PROGRAM) + " " + arguments + " 2>&1";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  Result result;
-  char buffer[512];
-  while (std::fgets(buffer, sizeof buffer, pipe))
-    result.text += buffer;
-  result.code = WEXITSTATUS(::pclose(pipe));
-  return result;
-}
 
 /// 250 grains through a small slot hopper.
 const fs::path& run() {

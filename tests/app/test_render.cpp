@@ -1,6 +1,7 @@
 // sandglass render from a run on the disk, with no display: files, texts, choices, comparison, refusals.
 
 #include "sim/io/run_folder.h"
+#include "tests/app/program.h"
 #include "tests/sim/temporary_folder.h"
 #include "vis/renderer.h"
 
@@ -17,24 +18,6 @@ using namespace sandglass::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Result {
-  int code = 0;
-  std::string text; ///< standard output and standard error
-};
-
-Result program(const std::string& arguments) {
-  ::unsetenv("DISPLAY");
-  const std::string command = std::string(SANDGLASS_PROGRAM) + " " + arguments + " 2>&1";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  Result result;
-  char buffer[512];
-  while (std::fgets(buffer, sizeof buffer, pipe))
-    result.text += buffer;
-  result.code = WEXITSTATUS(::pclose(pipe));
-  return result;
-}
 
 /// The two colliding grains of sample_runs, 3 ms in 61 frames.
 const fs::path& run() {

@@ -25,6 +25,14 @@ constexpr int stepsBetweenOutletChecks = 50;
 constexpr double stepsOfFlight = 16;
 constexpr std::int64_t grainsPerPiece = 1024;
 
+/// Half a step of acceleration; `w` holds one over the mass or the moment of inertia.
+void halfKick(Quad& velocity, const Quad& force, double half) {
+  const double kick = half * velocity.w;
+  velocity.x += kick * force.x;
+  velocity.y += kick * force.y;
+  velocity.z += kick * force.z;
+}
+
 int materialIndex(const Scene& scene, const std::string& name) {
   for (std::size_t k = 0; k < scene.materials.size(); ++k)
     if (scene.materials[k].name == name) return static_cast<int>(k);
@@ -152,10 +160,7 @@ bool DemSolver::drift() {
                        for (std::int64_t i = first; i < last; ++i) {
                          Quad &x = grains_.place[i], &v = grains_.motion[i];
                          const Quad &f = grains_.force[i], &l = grains_.listed[i];
-                         const double kick = half * v.w;
-                         v.x += kick * f.x;
-                         v.y += kick * f.y;
-                         v.z += kick * f.z;
+                         halfKick(v, f, half);
                          x.x += dt_ * v.x;
                          x.y += dt_ * v.y;
                          x.z += dt_ * v.z;
@@ -167,10 +172,7 @@ bool DemSolver::drift() {
                          for (std::int64_t i = first; i < last; ++i) {
                            Quad& w = grains_.spin[i];
                            const Quad& t = grains_.torque[i];
-                           const double kick = half * w.w;
-                           w.x += kick * t.x;
-                           w.y += kick * t.y;
-                           w.z += kick * t.z;
+                           halfKick(w, t, half);
                          }
                        if (late) old = true;
                        if (wrong) bad = true;
@@ -206,17 +208,11 @@ void DemSolver::kick() {
                        for (std::int64_t i = first; i < last; ++i) {
                          Quad& v = grains_.motion[i];
                          const Quad& f = grains_.force[i];
-                         const double kick = half * v.w;
-                         v.x += kick * f.x;
-                         v.y += kick * f.y;
-                         v.z += kick * f.z;
+                         halfKick(v, f, half);
                          if (!grains_.turning) continue;
                          Quad& w = grains_.spin[i];
                          const Quad& t = grains_.torque[i];
-                         const double turn = half * w.w;
-                         w.x += turn * t.x;
-                         w.y += turn * t.y;
-                         w.z += turn * t.z;
+                         halfKick(w, t, half);
                        }
                      });
 }
