@@ -1,24 +1,26 @@
 #pragma once
 // A block of contacts on their way through the laws: arrays of one quantity each, so that every law is a
 // plain loop that the compiler turns into vector code. Grain `a` is the one with the smaller id; `b` may be a
-// wall.
+// wall. `Real` is double, or float under mixed precision.
 
 #include <cstdint>
 
 namespace sandglass {
 
-struct ContactBlock {
+template <class Real> struct ContactBlockOf {
   static constexpr int capacity = 64;   ///< keeps the whole block in the first-level cache
-  static constexpr int maxHistory = 12; ///< doubles of history over all laws of a scene
-  using Column = double[capacity];
+  static constexpr int maxHistory = 12; ///< numbers of history over all laws of a scene
+  using Column = Real[capacity];
 
   int size = 0;
-  double dt = 0; ///< [s]
+  Real dt = 0;          ///< [s]
+  bool oneType = false; ///< all contacts are of type[0]
 
   int type[capacity]; ///< pair of materials, index into LawContext::types
   // Geometry. The normal points from b to a.
   alignas(64) Column nx, ny, nz;
-  alignas(64) Column overlap;                    ///< [m]; negative: a gap
+  alignas(64) Column overlap; ///< [m]; negative: a gap
+  // The next six are filled when a law says that it reads them (Law::reads).
   alignas(64) Column radiusA, radiusB;           ///< [m]; radiusB is 1 for a wall
   alignas(64) Column inverseMassA, inverseMassB; ///< [1/kg]; inverseMassB is 0 for a wall
   alignas(64) Column effectiveRadius;            ///< [m], ra rb / (ra + rb); ra at a wall
@@ -26,7 +28,7 @@ struct ContactBlock {
   // Motion of a relative to b at the contact point.
   alignas(64) Column vn;            ///< [m/s] along the normal; positive: parting
   alignas(64) Column vtx, vty, vtz; ///< [m/s] in the tangent plane
-  alignas(64) Column wx, wy, wz;    ///< [rad/s] spin of a minus spin of b; filled when a law asks for rolling
+  alignas(64) Column wx, wy, wz;    ///< [rad/s] spin of a minus spin of b; filled when a law reads spin
 
   // What the laws write.
   alignas(64) Column normalForce;   ///< [N] on a along the normal, all laws together
@@ -39,14 +41,16 @@ struct ContactBlock {
   std::uint8_t event[capacity]; ///< ContactEvent raised by a gap law
 };
 
+using ContactBlock = ContactBlockOf<double>;
+using ContactBlockSingle = ContactBlockOf<float>;
+
 /// Sets what the laws add to back to zero; couples only where somebody reads them.
-inline void clearForces(ContactBlock& b, bool couples) {
+template <class Real> inline void clearForces(ContactBlockOf<Real>& b, bool couples) {
   for (int i = 0; i < b.size; ++i)
-    b.normalForce[i] = b.contactForce[i] = b.stiffness[i] = b.damping[i] = b.ftx[i] = b.fty[i] = b.ftz[i] =
-        0.0;
+    b.normalForce[i] = b.contactForce[i] = b.stiffness[i] = b.damping[i] = b.ftx[i] = b.fty[i] = b.ftz[i] = 0;
   if (couples)
     for (int i = 0; i < b.size; ++i)
-      b.mx[i] = b.my[i] = b.mz[i] = 0.0;
+      b.mx[i] = b.my[i] = b.mz[i] = 0;
 }
 
 enum ContactEvent : std::uint8_t { noEvent = 0, birthEvent = 1, deathEvent = 2 };

@@ -3,6 +3,7 @@
 // To add one: a file in laws/ and a line in law_registry.cpp.
 
 #include "sim/contact/contact_block.h"
+#include "sim/contact/kernel_width.h"
 #include "sim/contact/law_registry.h"
 #include "sim/scene/parameters.h"
 
@@ -38,7 +39,11 @@ public:
   virtual int historySize() const { return 0; }
   /// Largest gap at which the law can act [m]; 0 for laws that act in contact alone. Sizes lists.
   virtual double range() const { return 0.0; }
-  /// Whether it reads the relative spin (wx, wy, wz), and whether it can turn grains at all.
+  /// Optional columns of the block that it reads; those that no law of a scene reads are left out.
+  enum Columns : unsigned { radii = 1, masses = 2, effectiveRadius = 4, effectiveMass = 8 };
+  virtual unsigned reads() const { return radii | masses | effectiveRadius | effectiveMass; }
+  /// Whether it reads the relative spin (wx, wy, wz) and writes couples, and whether it can turn grains at
+  /// all.
   virtual bool readsSpin() const { return false; }
   virtual bool turnsGrains() const { return false; }
   /// Names of per-grain conserved quantities (liquid, charge) that its events move.
@@ -47,7 +52,10 @@ public:
   /// Adds its force for every contact of the block and updates its history, which is
   /// block.history[firstHistory ... firstHistory + historySize() - 1]. Contacts with a gap are in the block
   /// only when some law has a range; contact laws leave those without force and with zero history.
-  virtual void apply(ContactBlock& block, int firstHistory) const = 0;
+  virtual void apply(ContactBlock& block, int firstHistory, KernelWidth width) const = 0;
+  /// The same under mixed precision, for laws that have it.
+  virtual void apply(ContactBlockSingle& block, int firstHistory, KernelWidth width) const {}
+  virtual bool singlePrecision() const { return false; }
 
   /// Energy stored in contact c [J], for the energy balance. Reads geometry, stiffness and history.
   virtual double storedEnergy(const ContactBlock& block, int c, int firstHistory) const { return 0.0; }

@@ -119,7 +119,7 @@ void LawStack::apply(ContactBlock& block, bool couples) const {
   clearForces(block, couples);
   if (events_) std::fill_n(block.event, block.size, noEvent);
   for (const Entry& entry : entries_)
-    entry.law->apply(block, entry.firstHistory);
+    entry.law->apply(block, entry.firstHistory, width_);
 }
 
 void LawStack::add(std::shared_ptr<const Law> law) {
@@ -133,6 +133,7 @@ void LawStack::append(std::shared_ptr<const Law> law, std::string name, LawRole 
     throw InputError(fmt::format("the laws of a scene may keep {} numbers of history per pair; these need {}",
                                  ContactBlock::maxHistory, history_));
   range_ = std::max(range_, law->range());
+  reads_ |= law->reads();
   turning_ = turning_ || law->turnsGrains();
   readsSpin_ = readsSpin_ || law->readsSpin();
   events_ = events_ || (role == LawRole::gap && law->historySize() > 0);

@@ -35,6 +35,9 @@ public:
   int typeOf(int materialA, int materialB) const { return materialA * materials_ + materialB; }
   int historySize() const { return history_; }
   double range() const { return range_; }
+  unsigned reads() const { return reads_; } ///< columns of the block, Law::Columns
+  KernelWidth width() const { return width_; }
+  void useWidth(KernelWidth width) { width_ = width; }
   bool turning() const { return turning_; }
   bool readsSpin() const { return readsSpin_; }
   bool hasEvents() const { return events_; }
@@ -50,6 +53,8 @@ private:
   std::vector<std::string> quantityNames_;
   int materials_ = 0, history_ = 0;
   double range_ = 0.0;
+  unsigned reads_ = 0;
+  KernelWidth width_ = bestKernelWidth();
   bool turning_ = false, readsSpin_ = false, events_ = false;
 };
 

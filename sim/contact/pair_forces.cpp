@@ -10,6 +10,7 @@ void PairForces::fill(const GrainStore& grains, PairList& list, const std::int32
                       double dt, ContactBlock& b) const {
   b.size = count;
   b.dt = dt;
+  b.oneType = laws_.materials() == 1;
   const bool turning = laws_.turning(), periodic = list.periodic();
   // Gather: scalar loads of whole records. Positions go to n for the time being.
   alignas(64) double dvx[ContactBlock::capacity], dvy[ContactBlock::capacity], dvz[ContactBlock::capacity];
@@ -85,7 +86,7 @@ void PairForces::flush(const GrainStore& grains, PairList& list, const std::int3
     const auto& entry = laws_.entries()[l];
     const bool watched = laws_.hasEvents() && entry.role == LawRole::gap;
     if (watched) std::fill_n(b.event, count, noEvent);
-    entry.law->apply(b, entry.firstHistory);
+    entry.law->apply(b, entry.firstHistory, laws_.width());
     if (!watched) continue;
     for (int c = 0; c < count; ++c)
       if (b.event[c] != noEvent) {

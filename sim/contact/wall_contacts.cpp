@@ -139,6 +139,7 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
       static_cast<std::int64_t>(candidates_.size()), 256, [&](std::int64_t first, std::int64_t last) {
         ContactBlock block;
         block.dt = dt;
+        block.oneType = false;
         std::vector<double> histories(static_cast<std::size_t>(ContactBlock::capacity) * std::max(1, size));
         std::int32_t owner[ContactBlock::capacity]; // candidate of each contact in the block
         double distance[ContactBlock::capacity];

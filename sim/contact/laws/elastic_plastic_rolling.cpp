@@ -6,6 +6,7 @@
 // is below its limit. Rotation about the normal (torsion) is left free.
 
 #include "sim/base/error.h"
+#include "sim/contact/law_loop.h"
 #include "sim/contact/laws/laws.h"
 
 #include <cmath>
@@ -14,11 +15,11 @@ namespace sandglass {
 
 namespace {
 
-class ElasticPlasticRolling final : public Law {
+class ElasticPlasticRolling final : public LawLoop<ElasticPlasticRolling> {
 public:
   explicit ElasticPlasticRolling(const LawContext& context) {
     for (const PairType& t : context.types) {
-      Constants c;
+      Constants<double> c;
       if (t.used) {
         const bool given = t.parameters.has("length"), scaled = t.parameters.has("coefficient");
         if (given == scaled)
@@ -35,42 +36,43 @@ public:
   bool readsSpin() const override { return true; }
   bool turnsGrains() const override { return true; }
 
-  void apply(ContactBlock& b, int first) const override {
-    double *ax = b.history[first], *ay = b.history[first + 1], *az = b.history[first + 2];
+  template <class Real, class Table>
+  SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
+    Real *ax = b.history[first], *ay = b.history[first + 1], *az = b.history[first + 2];
     for (int i = 0; i < b.size; ++i) {
-      const Constants& c = table_[b.type[i]];
-      const double twist = b.wx[i] * b.nx[i] + b.wy[i] * b.ny[i] + b.wz[i] * b.nz[i];
-      const double wx = b.wx[i] - twist * b.nx[i], wy = b.wy[i] - twist * b.ny[i],
-                   wz = b.wz[i] - twist * b.nz[i];
-      const double along = ax[i] * b.nx[i] + ay[i] * b.ny[i] + az[i] * b.nz[i];
-      double x = ax[i] - along * b.nx[i] + wx * b.dt, y = ay[i] - along * b.ny[i] + wy * b.dt,
-             z = az[i] - along * b.nz[i] + wz * b.dt;
-      const double length = c.length + c.coefficient * b.effectiveRadius[i];
-      const double k = 2.25 * b.stiffness[i] * length * length;
-      const double limit = length * b.contactForce[i];
-      const double elastic = k * std::sqrt(x * x + y * y + z * z);
+      const auto c = table(i);
+      const Real twist = b.wx[i] * b.nx[i] + b.wy[i] * b.ny[i] + b.wz[i] * b.nz[i];
+      const Real wx = b.wx[i] - twist * b.nx[i], wy = b.wy[i] - twist * b.ny[i],
+                 wz = b.wz[i] - twist * b.nz[i];
+      const Real along = ax[i] * b.nx[i] + ay[i] * b.ny[i] + az[i] * b.nz[i];
+      Real x = ax[i] - along * b.nx[i] + wx * b.dt, y = ay[i] - along * b.ny[i] + wy * b.dt,
+           z = az[i] - along * b.nz[i] + wz * b.dt;
+      const Real length = c.length + c.coefficient * b.effectiveRadius[i];
+      const Real k = Real(2.25) * b.stiffness[i] * length * length;
+      const Real limit = length * b.contactForce[i];
+      const Real elastic = k * std::sqrt(x * x + y * y + z * z);
       const bool yields = elastic > limit;
-      const double scale = yields ? limit / elastic : 1.0;
+      const Real scale = yields ? limit / elastic : Real(1);
       x *= scale;
       y *= scale;
       z *= scale;
       // Moment of inertia of the pair about the contact: 1/I = sum of 1/(7/5 m r^2).
-      const double inverseInertia = (b.inverseMassA[i] / (b.radiusA[i] * b.radiusA[i]) +
-                                     b.inverseMassB[i] / (b.radiusB[i] * b.radiusB[i])) /
-                                    1.4;
-      const double dashpot = yields ? 0.0 : 2.0 * c.damping * std::sqrt(k / inverseInertia);
-      const bool touches = b.overlap[i] > 0.0;
-      ax[i] = touches ? x : 0.0;
-      ay[i] = touches ? y : 0.0;
-      az[i] = touches ? z : 0.0;
-      b.mx[i] += touches ? -k * x - dashpot * wx : 0.0;
-      b.my[i] += touches ? -k * y - dashpot * wy : 0.0;
-      b.mz[i] += touches ? -k * z - dashpot * wz : 0.0;
+      const Real inverseInertia = (b.inverseMassA[i] / (b.radiusA[i] * b.radiusA[i]) +
+                                   b.inverseMassB[i] / (b.radiusB[i] * b.radiusB[i])) /
+                                  Real(1.4);
+      const Real dashpot = yields ? 0 : 2 * c.damping * std::sqrt(k / inverseInertia);
+      const bool touches = b.overlap[i] > 0;
+      ax[i] = touches ? x : 0;
+      ay[i] = touches ? y : 0;
+      az[i] = touches ? z : 0;
+      b.mx[i] += touches ? -k * x - dashpot * wx : 0;
+      b.my[i] += touches ? -k * y - dashpot * wy : 0;
+      b.mz[i] += touches ? -k * z - dashpot * wz : 0;
     }
   }
 
   double storedEnergy(const ContactBlock& b, int i, int first) const override {
-    const Constants& c = table_[b.type[i]];
+    const auto& c = table_[b.type[i]];
     const double length = c.length + c.coefficient * b.effectiveRadius[i];
     double a2 = 0.0;
     for (int k = 0; k < 3; ++k)
@@ -78,16 +80,15 @@ public:
     return 0.5 * 2.25 * b.stiffness[i] * length * length * a2;
   }
 
-private:
-  struct Constants {
-    double length = 0, coefficient = 0, damping = 0;
-  };
-  std::vector<Constants> table_;
+  unsigned reads() const override { return radii | masses | effectiveRadius; }
+
+  template <class Real> struct Constants { Real length = 0, coefficient = 0, damping = 0; };
+  std::vector<Constants<double>> table_;
 };
 
 class NoRolling final : public Law {
 public:
-  void apply(ContactBlock&, int) const override {}
+  void apply(ContactBlock&, int, KernelWidth) const override {}
 };
 
 } // namespace

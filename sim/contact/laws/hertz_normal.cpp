@@ -4,6 +4,7 @@
 // (Antypov, Elliott, EPL 94, 50004 (2011)) as long as attraction while parting is not cut off.
 
 #include "sim/base/error.h"
+#include "sim/contact/law_loop.h"
 #include "sim/contact/laws/laws.h"
 #include "sim/contact/restitution.h"
 
@@ -14,32 +15,34 @@ namespace sandglass {
 
 namespace {
 
-class HertzNormal final : public Law {
+constexpr double unlimited = 1e30;
+
+class HertzNormal final : public LawLoop<HertzNormal> {
 public:
   explicit HertzNormal(const LawContext& context) {
     for (const PairType& t : context.types) {
-      Constants c;
+      Constants<double> c;
       if (t.used) {
         c.modulus = t.effectiveYoungsModulus;
-        c.clamp = t.parameters.boolean("clamp_attraction");
+        c.floor = t.parameters.boolean("clamp_attraction") ? 0.0 : -unlimited;
         c.damping = 2.0 * std::sqrt(5.0 / 6.0) * dampingRatio(t.parameters.number("restitution"));
       }
       table_.push_back(c);
     }
   }
 
-  void apply(ContactBlock& b, int) const override {
+  template <class Real, class Table>
+  SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
     for (int i = 0; i < b.size; ++i) {
-      const Constants& c = table_[b.type[i]];
-      const double x = std::max(b.overlap[i], 0.0);
-      const double S = 2.0 * c.modulus * std::sqrt(b.effectiveRadius[i] * x);
-      const double gamma = c.damping * std::sqrt(S * b.effectiveMass[i]);
-      double force = 2.0 / 3.0 * S * x - gamma * b.vn[i];
-      force = c.clamp ? std::max(force, 0.0) : force;
+      const auto c = table(i);
+      const Real x = std::max(b.overlap[i], Real(0));
+      const Real S = 2 * c.modulus * std::sqrt(b.effectiveRadius[i] * x);
+      const Real gamma = c.damping * std::sqrt(S * b.effectiveMass[i]);
+      Real force = std::max(Real(2.0 / 3.0) * S * x - gamma * b.vn[i], c.floor);
       b.stiffness[i] = S;
       b.damping[i] = gamma;
       b.normalForce[i] += force;
-      b.contactForce[i] += std::max(force, 0.0);
+      b.contactForce[i] += std::max(force, Real(0));
     }
   }
 
@@ -55,12 +58,12 @@ public:
     return 2.8683 * std::pow(mass * mass / (radius * E * E * speed), 0.2);
   }
 
-private:
-  struct Constants {
-    double modulus = 0, damping = 0;
-    bool clamp = false;
+  unsigned reads() const override { return effectiveMass | effectiveRadius; }
+
+  template <class Real> struct Constants {
+    Real modulus = 0, damping = 0, floor = 0; ///< floor [N]: the most attractive force allowed
   };
-  std::vector<Constants> table_;
+  std::vector<Constants<double>> table_;
 };
 
 } // namespace

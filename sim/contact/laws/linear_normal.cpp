@@ -6,6 +6,7 @@
 // size.
 
 #include "sim/base/error.h"
+#include "sim/contact/law_loop.h"
 #include "sim/contact/laws/laws.h"
 #include "sim/contact/restitution.h"
 
@@ -17,15 +18,18 @@ namespace sandglass {
 
 namespace {
 
-class LinearNormal final : public Law {
+constexpr double unlimited = 1e30;
+
+class LinearNormal final : public LawLoop<LinearNormal> {
 public:
   explicit LinearNormal(const LawContext& context) {
     for (const PairType& t : context.types) {
-      Constants c;
+      Constants<double> c;
       if (t.used) {
         const double e = t.parameters.number("restitution");
-        c.clamp = t.parameters.boolean("clamp_attraction");
-        c.zeta = c.clamp ? dampingRatioClamped(e) : dampingRatio(e);
+        const bool clamp = t.parameters.boolean("clamp_attraction");
+        c.floor = clamp ? 0.0 : -unlimited;
+        c.zeta = clamp ? dampingRatioClamped(e) : dampingRatio(e);
         const bool given = t.parameters.has("stiffness"), timed = t.parameters.has("collision_time");
         if (given == timed)
           throw InputError("a linear contact needs either stiffness or collision_time, and not both");
@@ -40,17 +44,17 @@ public:
     }
   }
 
-  void apply(ContactBlock& b, int) const override {
+  template <class Real, class Table>
+  SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
     for (int i = 0; i < b.size; ++i) {
-      const Constants& c = table_[b.type[i]];
-      const double gamma = 2.0 * c.zeta * std::sqrt(c.k * b.effectiveMass[i]);
-      double force = c.k * b.overlap[i] - gamma * b.vn[i];
-      force = c.clamp ? std::max(force, 0.0) : force;
-      force = b.overlap[i] > 0.0 ? force : 0.0;
+      const auto c = table(i);
+      const Real gamma = 2 * c.zeta * std::sqrt(c.k * b.effectiveMass[i]);
+      Real force = std::max(c.k * b.overlap[i] - gamma * b.vn[i], c.floor);
+      force = b.overlap[i] > 0 ? force : 0;
       b.stiffness[i] = c.k;
       b.damping[i] = gamma;
       b.normalForce[i] += force;
-      b.contactForce[i] += std::max(force, 0.0);
+      b.contactForce[i] += std::max(force, Real(0));
     }
   }
 
@@ -61,16 +65,16 @@ public:
 
   double collisionTime(int type, double mass, double, double) const override {
     // Overdamped contacts creep apart; their spring alone still limits the step.
-    const Constants& c = table_[type];
+    const auto& c = table_[type];
     return std::numbers::pi / std::sqrt(c.k / mass * std::max(1.0 - c.zeta * c.zeta, 0.1));
   }
 
-private:
-  struct Constants {
-    double k = 0, zeta = 0;
-    bool clamp = false;
+  unsigned reads() const override { return effectiveMass; }
+
+  template <class Real> struct Constants {
+    Real k = 0, zeta = 0, floor = 0; ///< floor [N]: the most attractive force allowed
   };
-  std::vector<Constants> table_;
+  std::vector<Constants<double>> table_;
 };
 
 } // namespace

@@ -6,6 +6,7 @@
 // normal law is Mindlin's no-slip stiffness 8 G* sqrt(R overlap).
 
 #include "sim/base/error.h"
+#include "sim/contact/law_loop.h"
 #include "sim/contact/laws/laws.h"
 
 #include <cmath>
@@ -14,11 +15,11 @@ namespace sandglass {
 
 namespace {
 
-class SpringTangential final : public Law {
+class SpringTangential final : public LawLoop<SpringTangential> {
 public:
   SpringTangential(const LawContext& context, bool mindlin) {
     for (const PairType& t : context.types) {
-      Constants c;
+      Constants<double> c;
       if (t.used) {
         c.friction = t.parameters.number("friction");
         c.ratio = mindlin ? 4.0 * t.effectiveShearModulus / t.effectiveYoungsModulus
@@ -32,38 +33,38 @@ public:
   int historySize() const override { return 3; }
   bool turnsGrains() const override { return true; }
 
-  void apply(ContactBlock& b, int first) const override {
-    double *sx = b.history[first], *sy = b.history[first + 1], *sz = b.history[first + 2];
+  template <class Real, class Table>
+  SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
+    Real *sx = b.history[first], *sy = b.history[first + 1], *sz = b.history[first + 2];
     for (int i = 0; i < b.size; ++i) {
-      const Constants& c = table_[b.type[i]];
-      const double old2 = sx[i] * sx[i] + sy[i] * sy[i] + sz[i] * sz[i];
-      const double along = sx[i] * b.nx[i] + sy[i] * b.ny[i] + sz[i] * b.nz[i];
-      double x = sx[i] - along * b.nx[i], y = sy[i] - along * b.ny[i], z = sz[i] - along * b.nz[i];
-      const double now2 = x * x + y * y + z * z;
-      const double keep = now2 > 0.0 ? std::sqrt(old2 / now2) : 1.0;
+      const auto c = table(i);
+      const Real old2 = sx[i] * sx[i] + sy[i] * sy[i] + sz[i] * sz[i];
+      const Real along = sx[i] * b.nx[i] + sy[i] * b.ny[i] + sz[i] * b.nz[i];
+      Real x = sx[i] - along * b.nx[i], y = sy[i] - along * b.ny[i], z = sz[i] - along * b.nz[i];
+      const Real now2 = x * x + y * y + z * z;
+      const Real keep = now2 > 0 ? std::sqrt(old2 / now2) : Real(1);
       x = x * keep + b.vtx[i] * b.dt;
       y = y * keep + b.vty[i] * b.dt;
       z = z * keep + b.vtz[i] * b.dt;
-      const double kt = c.ratio * b.stiffness[i], gamma = c.damping * b.damping[i];
-      double fx = -kt * x - gamma * b.vtx[i], fy = -kt * y - gamma * b.vty[i],
-             fz = -kt * z - gamma * b.vtz[i];
-      const double f2 = fx * fx + fy * fy + fz * fz, limit = c.friction * b.contactForce[i];
+      const Real kt = c.ratio * b.stiffness[i], gamma = c.damping * b.damping[i];
+      Real fx = -kt * x - gamma * b.vtx[i], fy = -kt * y - gamma * b.vty[i], fz = -kt * z - gamma * b.vtz[i];
+      const Real f2 = fx * fx + fy * fy + fz * fz, limit = c.friction * b.contactForce[i];
       const bool slides = f2 > limit * limit;
-      const double scale = slides ? limit / std::sqrt(f2) : 1.0;
+      const Real scale = slides ? limit / std::sqrt(f2) : Real(1);
       fx *= scale;
       fy *= scale;
       fz *= scale;
-      const bool touches = b.overlap[i] > 0.0;
-      const double compliance = kt > 0.0 ? 1.0 / kt : 0.0;
+      const bool touches = b.overlap[i] > 0;
+      const Real compliance = kt > 0 ? 1 / kt : 0;
       x = slides ? -(fx + gamma * b.vtx[i]) * compliance : x;
       y = slides ? -(fy + gamma * b.vty[i]) * compliance : y;
       z = slides ? -(fz + gamma * b.vtz[i]) * compliance : z;
-      sx[i] = touches ? x : 0.0;
-      sy[i] = touches ? y : 0.0;
-      sz[i] = touches ? z : 0.0;
-      b.ftx[i] += touches ? fx : 0.0;
-      b.fty[i] += touches ? fy : 0.0;
-      b.ftz[i] += touches ? fz : 0.0;
+      sx[i] = touches ? x : 0;
+      sy[i] = touches ? y : 0;
+      sz[i] = touches ? z : 0;
+      b.ftx[i] += touches ? fx : 0;
+      b.fty[i] += touches ? fy : 0;
+      b.ftz[i] += touches ? fz : 0;
     }
   }
 
@@ -74,17 +75,16 @@ public:
     return 0.5 * table_[b.type[i]].ratio * b.stiffness[i] * s2;
   }
 
-private:
-  struct Constants {
-    double friction = 0, ratio = 0, damping = 0;
-  };
-  std::vector<Constants> table_;
+  unsigned reads() const override { return 0; }
+
+  template <class Real> struct Constants { Real friction = 0, ratio = 0, damping = 0; };
+  std::vector<Constants<double>> table_;
 };
 
 /// Frictionless: no history, no torque, no spin.
 class NoTangential final : public Law {
 public:
-  void apply(ContactBlock&, int) const override {}
+  void apply(ContactBlock&, int, KernelWidth) const override {}
 };
 
 const ParameterSpec friction{"friction", ParameterType::number, "1", "Coulomb coefficient", {}, false, 0.0,

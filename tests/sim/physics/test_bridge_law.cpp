@@ -16,7 +16,7 @@ public:
   int historySize() const override { return 1; }                        // liquid in the bridge; 0: none
   double range() const override { return rupture; }
   std::vector<std::string> grainQuantities() const override { return {"liquid"}; }
-  void apply(ContactBlock& b, int first) const override {
+  void apply(ContactBlock& b, int first, KernelWidth) const override {
     double* liquid = b.history[first];
     for (int i = 0; i < b.size; ++i) {
       if (liquid[i] == 0.0 && b.overlap[i] > 0.0) b.event[i] = birthEvent;
