@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace sandglass::analysis {
 
 namespace {
@@ -97,12 +99,17 @@ std::string toCsv(const Table& table) {
   std::string out = comment("title", table.title) + comment("definition", table.definition);
   for (const auto& [key, value] : table.provenance)
     out += comment("provenance " + key, value);
+  const bool named = !table.rowNames.empty();
+  if (named) out += cell(table.rowTitle);
   for (std::size_t c = 0; c < table.columns.size(); ++c)
-    out += (c ? "," : "") + cell(axisText(table.columns[c]));
+    out += (c || named ? "," : "") + cell(axisText(table.columns[c]));
   out += "\n";
-  for (const auto& row : table.rows) {
-    for (std::size_t c = 0; c < row.size(); ++c)
-      out += fmt::format("{}{}", c ? "," : "", row[c]);
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    if (named) out += cell(table.rowNames.at(r));
+    for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
+      if (c || named) out += ",";
+      if (!std::isnan(table.rows[r][c])) out += fmt::format("{}", table.rows[r][c]);
+    }
     out += "\n";
   }
   return out;
@@ -114,6 +121,10 @@ std::string toJson(const Table& table) {
                    {"definition", table.definition},
                    {"rows", table.rows},
                    {"provenance", table.provenance}};
+  if (!table.rowNames.empty()) {
+    j["row_title"] = table.rowTitle;
+    j["row_names"] = table.rowNames;
+  }
   j["columns"] = nlohmann::json::array();
   for (const auto& column : table.columns)
     j["columns"].push_back(axisJson(column));

@@ -38,12 +38,14 @@ struct Curve {
   std::map<std::string, std::string> provenance;
 };
 
-/// Rows of named columns; numbers only.
+/// Rows of named columns; numbers only, but for a first column of names where rows have them.
 struct Table {
   std::string name, title, definition;
-  std::vector<Axis> columns;
-  std::vector<std::vector<double>> rows;
+  std::vector<Axis> columns; ///< of the numbers
+  std::vector<std::vector<double>> rows; ///< NaN: an empty cell
   std::map<std::string, std::string> provenance;
+  std::string rowTitle{};              ///< heading of the names
+  std::vector<std::string> rowNames{}; ///< one for each row, or none
 };
 
 /// CSV: a comment header (title, definition, frames, numbers, provenance), then x,y[,error] columns; series

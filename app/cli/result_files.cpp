@@ -58,4 +58,10 @@ void ResultFiles::write(const analysis::Curve& curve, const std::string& prefix)
 #endif
 }
 
+void ResultFiles::write(const analysis::Table& table, const std::string& prefix) {
+  const std::string stem = (folder_ / (prefix + table.name)).string();
+  writeText(stem + ".csv", analysis::toCsv(table));
+  if (!csvOnly_) writeText(stem + ".json", analysis::toJson(table));
+}
+
 } // namespace sandglass::cli

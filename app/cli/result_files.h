@@ -16,6 +16,7 @@ public:
 
   /// Writes `prefix` + the curve's name + endings.
   void write(const analysis::Curve& curve, const std::string& prefix = "");
+  void write(const analysis::Table& table, const std::string& prefix = "");
 
 private:
   struct Painter;

@@ -2,15 +2,14 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
+#include "app/cli/replicate_runs.h"
 #include "app/cli/scene_files.h"
+#include "app/cli/stop_signals.h"
 #include "sim/run/run.h"
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <csignal>
 #include <memory>
-#include <unistd.h>
 
 namespace sandglass::cli {
 
@@ -19,35 +18,8 @@ namespace {
 struct RunArguments {
   std::string scene, folder;
   std::vector<std::string> overrides;
-  int threads = 0;
+  int threads = 0, replicates = 0;
   bool resume = false, overwrite = false, quick = false;
-};
-
-std::atomic<Run*> running{nullptr};
-
-/// First signal: a clean stop. Second: leave at once; the last checkpoint is whole at any moment.
-void onSignal(int number) {
-  Run* run = running.exchange(nullptr);
-  if (run == nullptr) _exit(128 + number);
-  run->stop();
-  constexpr char hint[] =
-      "\nsandglass: finishing the step and writing a checkpoint; once more to leave at once\n";
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, hint, sizeof hint - 1);
-}
-
-/// The handlers are ours while a run lasts.
-class SignalGuard {
-public:
-  explicit SignalGuard(Run& run) {
-    running = &run;
-    for (const int number : {SIGINT, SIGTERM})
-      std::signal(number, onSignal);
-  }
-  ~SignalGuard() {
-    for (const int number : {SIGINT, SIGTERM})
-      std::signal(number, SIG_DFL);
-    running = nullptr;
-  }
 };
 
 std::string largeNumber(double value) {
@@ -70,6 +42,9 @@ int execute(const RunArguments& arguments) {
   const auto files = locateScene(arguments.scene, arguments.quick, arguments.overrides);
   RunOptions options;
   options.folder = arguments.folder.empty() ? files.defaultFolder : std::filesystem::path(arguments.folder);
+  if (arguments.replicates > 0)
+    return runReplicates(readScene(files.scene, files.overrides),
+                         {arguments.replicates, options.folder, arguments.threads, arguments.overwrite});
   options.threads = arguments.threads;
   options.resume = arguments.resume;
   options.overwrite = arguments.overwrite;
@@ -80,7 +55,7 @@ int execute(const RunArguments& arguments) {
                fmt::format("{} {:.4g} s, {} grains, {} grain-steps/s", p.stage, p.time, p.grains,
                            largeNumber(p.grainStepsPerSecond)));
   };
-  const SignalGuard guard(run);
+  const StopSignals signals(&run);
   const RunOutcome outcome = run.execute();
   bar.finish();
   printSummary(run.summary(), options.folder.string());
@@ -106,6 +81,12 @@ void addRun(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   CLI::Option* resume = command->add_flag("--resume", arguments->resume, "go on from the newest checkpoint");
   command->add_flag("--overwrite", arguments->overwrite, "replace the run in the folder")->excludes(resume);
+  command
+      ->add_option("--replicates", arguments->replicates,
+                   "the same scene over this many seeds, several runs at once, with means and intervals; run "
+                   "again, it goes on")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
   command->add_flag("--quick", arguments->quick, "the small variant: also apply quick.set beside the scene");
   command->callback([arguments, &action] { action = [arguments] { return execute(*arguments); }; });
 }

@@ -127,6 +127,7 @@ RunSummary Run::summary() const {
   s.stages = impl_->scene.stages.size();
   if (!impl_->stages) return s;
   s.stagesDone = impl_->stages->index();
+  s.stageStarts = impl_->stages->starts();
   s.frames = impl_->recorder->frameCount();
   s.time = impl_->solver->time();
   s.steps = impl_->solver->step();

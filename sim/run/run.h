@@ -53,9 +53,10 @@ enum class RunOutcome { finished, stopped };
 /// What a run has done, for the last line of the command line.
 struct RunSummary {
   std::size_t stagesDone = 0, stages = 0, frames = 0;
-  double time = 0;        ///< [s] simulated
-  std::int64_t steps = 0; ///< since the start of the run
-  std::size_t grains = 0; ///< present at the end
+  std::vector<double> stageStarts; ///< [s], of the stages that have begun
+  double time = 0;                 ///< [s] simulated
+  std::int64_t steps = 0;          ///< since the start of the run
+  std::size_t grains = 0;          ///< present at the end
   Flow flow;
   double wallSeconds = 0; ///< of this execute(), pauses left out
   double grainSteps = 0;  ///< of this execute()

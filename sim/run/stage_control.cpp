@@ -36,6 +36,7 @@ void StageControl::begin() {
   rain_ = makeRain(scene_, stage.name);
   begun_ = true;
   start_ = solver_.step();
+  starts_.push_back(solver_.time());
   massAtStart_ = solver_.flow().massDischarged;
   grainsAtStart_ = static_cast<std::int64_t>(solver_.grains());
   std::string walls;
@@ -136,7 +137,7 @@ double StageControl::fraction() const {
 
 std::vector<std::byte> StageControl::save() const {
   ByteWriter out;
-  out << static_cast<std::uint64_t>(stage_) << begun_ << start_ << massAtStart_ << grainsAtStart_
+  out << static_cast<std::uint64_t>(stage_) << begun_ << start_ << massAtStart_ << grainsAtStart_ << starts_
       << (rain_ ? rain_->state() : std::vector<std::int64_t>{}) << watchdog_.save();
   return out.take();
 }
@@ -145,7 +146,7 @@ void StageControl::load(const std::vector<std::byte>& bytes) {
   std::uint64_t stage = 0;
   std::vector<std::int64_t> rain;
   std::vector<std::byte> watchdog;
-  ByteReader(bytes) >> stage >> begun_ >> start_ >> massAtStart_ >> grainsAtStart_ >> rain >> watchdog;
+  ByteReader(bytes) >> stage >> begun_ >> start_ >> massAtStart_ >> grainsAtStart_ >> starts_ >> rain >> watchdog;
   stage_ = stage;
   watchdog_.load(watchdog);
   rain_.reset();

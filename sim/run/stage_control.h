@@ -36,6 +36,7 @@ public:
   bool done() const { return stage_ >= scene_.stages.size(); } ///< all stages have ended
   std::size_t index() const { return stage_; }
   const std::string& name() const; ///< of the stage that last began; empty before the first
+  const std::vector<double>& starts() const { return starts_; } ///< [s], of the stages that have begun
   double fraction() const;         ///< of the whole run, 0..1, an estimate
 
   std::vector<std::byte> save() const;
@@ -52,6 +53,7 @@ private:
   EnergyWatchdog watchdog_;
   std::size_t stage_ = 0;
   bool begun_ = false;
+  std::vector<double> starts_;
   std::int64_t start_ = 0; ///< step at which the stage began
   double massAtStart_ = 0; ///< [kg] discharged before the stage
   std::int64_t grainsAtStart_ = 0;
