@@ -23,6 +23,8 @@ inline constexpr const char* species = "species";   ///< scalar, index into Fram
 inline constexpr const char* velocity = "velocity"; ///< vector [m/s]
 inline constexpr const char* spin = "spin";         ///< vector [rad/s]
 inline constexpr const char* force = "force";       ///< vector [N], all forces on the grain
+inline constexpr const char* residenceTime = "residence_time"; ///< scalar [s] since it entered or was put back
+inline constexpr const char* life = "life";         ///< scalar, how often an outlet has put it back
 } // namespace quantity
 
 /// The space of the scene. Where `periodic[k]` is false, lower/upper merely bound what is there.

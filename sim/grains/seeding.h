@@ -14,11 +14,21 @@ namespace sandglass {
 
 struct GrainSeed {
   std::int64_t id = 0;
-  int species = 0;              ///< index into Scene::species
-  double radius = 0;            ///< [m]
-  Vec3 position = Vec3::Zero(); ///< [m]
-  Vec3 velocity = Vec3::Zero(); ///< [m/s]
-  Vec3 spin = Vec3::Zero();     ///< [rad/s]
+  int species = 0;                  ///< index into Scene::species
+  double radius = 0;                ///< [m]
+  Vec3 position = Vec3::Zero();     ///< [m]
+  Vec3 velocity = Vec3::Zero();     ///< [m/s]
+  Vec3 spin = Vec3::Zero();         ///< [rad/s]
+  std::int32_t life = 0;            ///< how often an outlet has put it back, where outlets do
+  std::vector<double> quantities{}; ///< conserved quantities of the laws; empty: zero
+};
+
+/// A grain as it passed an outlet.
+struct LeftGrain {
+  GrainSeed grain;
+  int outlet = 0;       ///< index into Scene::outlets
+  double time = 0;      ///< [s]
+  double residence = 0; ///< [s] since it entered or was put back
 };
 
 /// Grains placed at once, before the first step of their stage, by all fillings of `stage` but "rain".

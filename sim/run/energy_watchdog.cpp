@@ -44,7 +44,7 @@ void EnergyWatchdog::check(const Solver& solver, const Energies& energies) {
     if (wall.velocity != Vec3::Zero()) on_ = false;
   if (!on_) return;
   const Flow& flow = solver.flow();
-  const double mass = flow.massEntered - flow.massDischarged;
+  const double mass = flow.massEntered + flow.massRecycled - flow.massDischarged;
   const double now = energies.total() - mass * lowestPotential_;
   const double before =
       recent_.empty() ? ever_ : std::min(ever_, *std::max_element(recent_.begin(), recent_.end()));

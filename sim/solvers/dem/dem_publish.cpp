@@ -60,6 +60,11 @@ FramePtr DemSolver::frame() const {
   if (wants(quantity::velocity)) vectors(quantity::velocity, grains_.motion);
   if (wants(quantity::spin) && grains_.turning) vectors(quantity::spin, grains_.spin);
   if (wants(quantity::force)) vectors(quantity::force, grains_.force);
+  if (wants(quantity::residenceTime))
+    scalars(quantity::residenceTime,
+            [&](std::int32_t i) { return time() - lives_.enteredAt(grains_.id[i]); });
+  if (wants(quantity::life))
+    scalars(quantity::life, [&](std::int32_t i) { return static_cast<double>(lives_.life(grains_.id[i])); });
   frame->walls = walls();
   if (!scene_.output.contacts || stale_) return frame;
 
@@ -113,19 +118,30 @@ Energies DemSolver::energies() const {
   return e;
 }
 
+GrainSeed DemSolver::seedOf(std::int32_t i) const {
+  GrainSeed s;
+  s.id = grains_.id[i];
+  s.species = grains_.species[i];
+  s.radius = grains_.place[i].w;
+  s.position = wrapped(grains_.place[i].vec());
+  s.velocity = grains_.motion[i].vec();
+  if (grains_.turning) s.spin = grains_.spin[i].vec();
+  s.life = lives_.life(s.id);
+  return s;
+}
+
 std::vector<GrainSeed> DemSolver::present() const {
   std::vector<GrainSeed> all;
-  for (std::int32_t i : idOrder()) {
-    GrainSeed s;
-    s.id = grains_.id[i];
-    s.species = grains_.species[i];
-    s.radius = grains_.place[i].w;
-    s.position = wrapped(grains_.place[i].vec());
-    s.velocity = grains_.motion[i].vec();
-    if (grains_.turning) s.spin = grains_.spin[i].vec();
-    all.push_back(s);
-  }
+  for (std::int32_t i : idOrder())
+    all.push_back(seedOf(i));
   return all;
+}
+
+double DemSolver::greatestSpeed() const {
+  double square = 0;
+  for (const Quad& v : grains_.motion)
+    square = std::max(square, v.vec().squaredNorm());
+  return std::sqrt(square);
 }
 
 std::vector<FrameWall> DemSolver::walls() const {
@@ -189,6 +205,8 @@ Solver::State DemSolver::save() {
   for (const SolverWall& w : walls_)
     active.push_back(w.active);
   put(s, "walls.active", active);
+  put(s, "lives", lives_.lives());
+  put(s, "entries", lives_.entries());
   put(s, "counters", std::vector<Counters>{{step_, nextId_, flow_}});
   return s;
 }
@@ -236,6 +254,8 @@ void DemSolver::load(const State& s) {
   restore("walls.history", wallContacts_.historyArray());
   restore("walls.feature", wallContacts_.featureArray());
   restore("walls.result", wallContacts_.resultArray());
+  get(s, "lives", lives_.lives());
+  get(s, "entries", lives_.entries());
   std::vector<Counters> counters;
   get(s, "counters", counters);
   step_ = counters.at(0).step;

@@ -51,7 +51,8 @@ LawStack stackWith(const Scene& scene, const std::vector<std::shared_ptr<const L
 DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
                      const std::vector<std::shared_ptr<const Law>>& added)
     : scene_(scene), laws_(stackWith(scene, added)), parallel_(options.threads),
-      list_(scene.domain, laws_.historySize(), laws_.outputSize()), pairForces_(laws_), wallContacts_(laws_) {
+      list_(scene.domain, laws_.historySize(), laws_.outputSize()), pairForces_(laws_), wallContacts_(laws_),
+      lives_(scene) {
   const StepChoice choice = chooseStep(scene, laws_);
   if (choice.step > choice.stableLimit)
     throw InputError(fmt::format(
@@ -97,11 +98,14 @@ void DemSolver::add(const std::vector<GrainSeed>& seeds) {
     grains_.id[i] = s.id;
     grains_.species[i] = static_cast<std::int16_t>(s.species);
     grains_.material[i] = static_cast<std::uint8_t>(materialIndex(scene_, species.material));
+    for (std::size_t q = 0; q < s.quantities.size(); ++q)
+      grains_.quantities.at(q)[i] = s.quantities[q];
     nextId_ = std::max(nextId_, s.id + 1);
-    flow_.massEntered += mass;
+    lives_.entered(s.id, s.life, time());
+    (s.life > 0 ? flow_.massRecycled : flow_.massEntered) += mass;
+    ++(s.life > 0 ? flow_.grainsRecycled : flow_.grainsEntered);
     smallestRadius_ = std::min(smallestRadius_, s.radius);
   }
-  flow_.grainsEntered += static_cast<std::int64_t>(seeds.size());
   stale_ = stale_ || !seeds.empty();
 }
 
@@ -139,6 +143,22 @@ void DemSolver::advance(std::int64_t steps) {
     stepOnce();
 }
 
+void DemSolver::damp() {
+  const double factor = std::exp(-drag_ * dt_);
+  const auto slow = [&](Quad& v) {
+    v.x *= factor;
+    v.y *= factor;
+    v.z *= factor;
+  };
+  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
+                     [&](std::int64_t first, std::int64_t last) {
+                       for (std::int64_t i = first; i < last; ++i) {
+                         slow(grains_.motion[i]);
+                         if (grains_.turning) slow(grains_.spin[i]);
+                       }
+                     });
+}
+
 void DemSolver::stepOnce() {
   if (drift()) {
     checkEscapes();
@@ -146,6 +166,7 @@ void DemSolver::stepOnce() {
   }
   forces(dt_);
   kick();
+  if (drag_ > 0) damp();
   ++step_;
   if (step_ % stepsBetweenOutletChecks == 0) discharge();
 }
@@ -263,6 +284,16 @@ void DemSolver::discharge() {
     if (!drop[i]) continue;
     ++flow_.grainsDischarged;
     flow_.massDischarged += grains_.mass(i);
+    const Vec3 x = grains_.place[i].vec();
+    const auto through = std::find_if(scene_.outlets.begin(), scene_.outlets.end(), [&](const OutletSpec& o) {
+      return (x - o.point).dot(o.normal.normalized()) > 0.0; // the first that it is beyond
+    });
+    if (!through->recycle && !through->record) continue;
+    GrainSeed seed = seedOf(i);
+    for (const auto& values : grains_.quantities)
+      seed.quantities.push_back(values[i]);
+    left_.push_back({std::move(seed), static_cast<int>(through - scene_.outlets.begin()), time(),
+                     time() - lives_.enteredAt(grains_.id[i])});
   }
   flow_.lastDischarge = time();
   rebuild(drop);

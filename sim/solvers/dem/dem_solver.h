@@ -7,10 +7,12 @@
 #include "sim/contact/pair_forces.h"
 #include "sim/contact/pair_list.h"
 #include "sim/contact/wall_contacts.h"
+#include "sim/grains/grain_lives.h"
 #include "sim/solvers/solver.h"
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sandglass {
@@ -23,6 +25,7 @@ public:
 
   void add(const std::vector<GrainSeed>& grains) override;
   void removeWall(const std::string& name) override;
+  void setDrag(double rate) override { drag_ = rate; }
   void advance(std::int64_t steps) override;
 
   double time() const override { return static_cast<double>(step_) * dt_; }
@@ -31,6 +34,8 @@ public:
   std::size_t grains() const override { return grains_.size(); }
   std::int64_t nextId() const override { return nextId_; }
   bool isFree(const Vec3& position, double radius) const override;
+  double greatestSpeed() const override;
+  std::vector<LeftGrain> takeLeft() override { return std::exchange(left_, {}); }
 
   FramePtr frame() const override;
   Energies energies() const override;
@@ -59,11 +64,13 @@ private:
   void forces(double dt);
   void kick(); ///< second half kick
   void applyEvents(std::vector<PairEvent>& events);
+  void damp();      ///< a step of drag
   void discharge(); ///< takes out what has passed an outlet
   void checkOverlap(const DeepestOverlap& deepest) const;
   [[noreturn]] void reportBadMotion() const;
   void checkEscapes() const;
   std::vector<std::int32_t> idOrder() const;
+  GrainSeed seedOf(std::int32_t i) const;
   Vec3 wrapped(Vec3 x) const;
 
   Scene scene_;
@@ -77,7 +84,10 @@ private:
   double dt_ = 0, skin_ = 0, meanDiameter_ = 0, smallestRadius_ = 0;
   std::int64_t step_ = 0, nextId_ = 0, rebuilds_ = 0;
   bool stale_ = true;
+  double drag_ = 0; ///< [1/s]
   Flow flow_;
+  GrainLives lives_;
+  std::vector<LeftGrain> left_;
 };
 
 } // namespace sandglass
