@@ -4,6 +4,7 @@
 
 #include "sim/contact/contact_block.h"
 #include "sim/contact/kernel_width.h"
+#include "sim/contact/law_columns.h"
 #include "sim/contact/law_registry.h"
 #include "sim/scene/parameters.h"
 
@@ -31,7 +32,7 @@ struct EventGrains {
   std::vector<double*> a, b; ///< in the order of Law::grainQuantities()
 };
 
-class Law {
+class Law : public LawColumns {
 public:
   virtual ~Law() = default;
 
@@ -39,8 +40,7 @@ public:
   virtual int historySize() const { return 0; }
   /// Largest gap at which the law can act [m]; 0 for laws that act in contact alone. Sizes lists.
   virtual double range() const { return 0.0; }
-  /// Optional columns of the block that it reads; those that no law of a scene reads are left out.
-  enum Columns : unsigned { radii = 1, masses = 2, effectiveRadius = 4, effectiveMass = 8 };
+  /// Optional columns of the block that it reads, LawColumns.
   virtual unsigned reads() const { return radii | masses | effectiveRadius | effectiveMass; }
   /// Whether it reads the relative spin (wx, wy, wz) and writes couples, and whether it can turn grains at
   /// all.

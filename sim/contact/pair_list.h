@@ -2,6 +2,13 @@
 // Who may touch whom: all pairs of grains nearer than reach + skin, with every periodic image as a pair of
 // its own, so a box may be thinner than two cut-offs. A pair is keyed (id, id, image); its history lives in
 // the list from birth to death and is carried over when the list is built anew.
+//
+// The list is laid out for the particle loop. Grains are sorted by cell. A pair belongs to the row of its
+// grain that comes first in storage, so once row i is done every contact of grain i is known and nobody later
+// reads its old state. Rows are cut into chunks of grains for threads; pairs between two chunks stand in a
+// section of their own that is evaluated first. Sections start at multiples of `lane` and are padded with
+// pairs of two phantom grains (storage indices grains.size() and grains.size() + 1) that never touch.
+// The cutting depends on the number of grains alone, never on the number of threads.
 
 #include "sim/base/parallel.h"
 #include "sim/grains/grain_store.h"
@@ -15,71 +22,72 @@ namespace sandglass {
 
 class PairList {
 public:
+  static constexpr int lane = 8;      ///< pairs that a vector loop takes at once; histories are grouped so
+  static constexpr int group = 32;    ///< grains that are integrated together
+  static constexpr int slotCount = 8; ///< contacts per grain that are found without looking further
+
   struct Pair {
     std::int32_t a = 0, b = 0; ///< storage indices; a has the smaller id (or is its own image)
   };
+  struct Range {
+    std::int64_t begin = 0, end = 0;
+  };
+  /// A contact of a grain beyond its slots.
+  struct Extra {
+    std::int32_t grain, entry;
+  };
 
-  PairList(const Domain& domain, int historySize, int outputSize);
+  /// outputQuads: quads (4 doubles) that the particle loop writes per pair.
+  PairList(const Domain& domain, int historySize, int outputQuads, bool keepsLive);
 
-  /// Sorts the grains by cell, wraps them into the periodic box, remembers where they are and lists all pairs
-  /// with distance below r_a + r_b + range + allowed_a + allowed_b, where `listed.w` of a grain holds how far
-  /// it may move before the list is too old. Live pairs keep their history, at the same key.
-  /// Grains whose `drop` flag is set leave the store (an empty `drop` keeps all).
-  void build(GrainStore& grains, double range, Parallel& parallel,
-             const std::vector<std::uint8_t>& drop = {});
+  /// Sorts the grains by cell, wraps them into the periodic box, remembers where they are (listed.x,y,z) and
+  /// lists all pairs with distance below r_a + r_b + range + listed.w of a + listed.w of b, where `listed.w`
+  /// of a grain, set by the caller, is how far it may move before the list is too old. Pairs that were listed
+  /// before keep their history (and live flag), at the same key. Grains whose `drop` flag is set leave the
+  /// store (an empty `drop` keeps all).
+  void build(GrainStore& grains, double range, Parallel& parallel, const std::vector<std::uint8_t>& drop = {});
 
-  std::size_t size() const { return pairs_.size(); }
-  const std::vector<Pair>& pairs() const { return pairs_; }
-  bool periodic() const { return periodic_; }
-  /// Vector from the box to the image of b that pair p means.
-  const Vec3& shift(std::size_t p) const { return shifts_[shiftOf_[p]]; }
-  const std::vector<std::uint8_t>& shiftOf() const { return shiftOf_; }
-  const std::vector<Vec3>& shifts() const { return shifts_; }
-  std::array<int, 3> image(std::size_t p) const;
+  std::int64_t entries() const;                ///< with padding; a multiple of `lane`
+  std::int64_t size() const;                   ///< real pairs
+  const std::vector<Pair>& pairs() const;      ///< entries() of them
+  bool isPadding(std::int64_t p) const;        ///< a pair of phantoms
+  bool periodic() const;
+  /// Vector from the box to the image of b that pair p means: shifts()[shiftOf()[p]]. w is 0.
+  const std::vector<std::uint8_t>& shiftOf() const; ///< empty without periodic directions; padding: the code of no shift
+  const std::vector<Quad>& shifts() const;
+  std::array<int, 3> image(std::int64_t p) const;
   /// Box crossings of b against a, which does not change when grains are wrapped: the third part of the key.
-  std::int64_t imageKey(std::size_t p) const { return periodic_ ? imageKey_[p] : 0; }
+  std::int64_t imageKey(std::int64_t p, const GrainStore& grains) const;
 
-  std::uint8_t* live() { return live_.data(); }
-  double* history(std::size_t p) { return history_.data() + p * historySize_; }
-  double* output(std::size_t p) { return output_.data() + p * outputSize_; }
-  const double* outputs() const { return output_.data(); }
-  int historySize() const { return historySize_; }
-  int outputSize() const { return outputSize_; }
+  // Sections. Chunks are whole groups of grains.
+  int chunks() const;
+  Range crossing() const;          ///< pairs between chunks
+  Range chunkGrains(int c) const;  ///< storage indices
+  Range chunkPairs(int c) const;
+  /// Where in its chunk's pairs the rows of a group of grains end (groupEnd(g), g = index / group).
+  std::int64_t groupEnd(std::int64_t g) const;
 
-  /// Pairs of grain i as (pair << 1 | 1 when i is b), ordered by partner (id, image): the order in which its
-  /// forces are summed, whatever the storage order or the age of the list.
-  const std::int32_t* begin(std::size_t i) const { return entries_.data() + offsets_[i]; }
-  const std::int32_t* end(std::size_t i) const { return entries_.data() + offsets_[i + 1]; }
+  // Per grain: entries are (pair << 1 | 1 when the grain is b), in an order that does not depend on the
+  // cutting into chunks; empty slots point at the zero output behind the last pair: entries() << 1.
+  const std::int32_t* slots(std::int64_t grain) const; ///< slotCount of them
+  const std::vector<Extra>& extras() const;            ///< ordered by grain
+  Range groupExtras(std::int64_t g) const;             ///< into extras()
 
-  /// For checkpoints: the arrays that cannot be made again from positions.
-  std::vector<double>& historyArray() { return history_; }
-  std::vector<std::uint8_t>& liveArray() { return live_; }
-  const std::vector<double>& historyArray() const { return history_; }
-  const std::vector<std::uint8_t>& liveArray() const { return live_; }
+  // Histories: number k of pair p is history()[(p / lane) * lane * historySize + k * lane + p % lane].
+  double* history();
+  double historyOf(std::int64_t p, int k) const;
+  void setHistory(std::int64_t p, int k, double value);
+  /// Outputs: quad k of pair p is output()[p * outputQuads + k]; one more, all zero, at p = entries().
+  Quad* output();
+  std::uint8_t* live(); ///< 1: in range of a law with events; null unless keepsLive
+  int historySize() const;
+  int outputQuads() const;
+
+  /// For checkpoints: the arrays that cannot be made again from the positions at listing time.
+  std::vector<double>& historyArray();
+  std::vector<std::uint8_t>& liveArray();
 
   std::size_t bytes() const;
-
-private:
-  struct Cells;
-  void wrap(GrainStore& grains) const;
-  void search(const GrainStore& grains, const Cells& cells, double range, Parallel& parallel);
-  void link(const GrainStore& grains);
-  void carry(const PairList& old, const std::vector<std::int32_t>& oldIndex, const GrainStore& grains,
-             Parallel& parallel);
-
-  Domain domain_;
-  Vec3 extent_ = Vec3::Zero();
-  bool periodic_ = false;
-  int historySize_, outputSize_;
-  std::vector<Vec3> shifts_; ///< one per image code
-  std::vector<std::array<int, 3>> codes_;
-  std::vector<Pair> pairs_;
-  std::vector<std::uint8_t> shiftOf_; ///< image code of a pair; empty without periodic directions
-  std::vector<std::int64_t> imageKey_;
-  std::vector<std::uint8_t> live_;
-  std::vector<double> history_, output_;
-  std::vector<std::int64_t> partnerIds_; ///< ids of a and b at build time, for carrying history
-  std::vector<std::int32_t> offsets_, entries_;
 };
 
 } // namespace sandglass
