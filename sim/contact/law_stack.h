@@ -42,8 +42,8 @@ public:
   bool readsSpin() const { return readsSpin_; }
   bool hasEvents() const { return events_; }
   const std::vector<std::string>& quantityNames() const { return quantityNames_; }
-  /// Doubles written per pair: force; with friction also a torque; with couples those too.
-  int outputSize() const { return readsSpin_ ? 9 : turning_ ? 6 : 3; }
+  /// Quads written per pair: force; with friction also a torque; with couples those too.
+  int outputQuads() const { return readsSpin_ ? 3 : turning_ ? 2 : 1; }
 
 private:
   void append(std::shared_ptr<const Law> law, std::string name, LawRole role);

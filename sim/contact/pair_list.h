@@ -16,78 +16,48 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sandglass {
 
 class PairList {
 public:
-  static constexpr int lane = 8;      ///< pairs that a vector loop takes at once; histories are grouped so
-  static constexpr int group = 32;    ///< grains that are integrated together
-  static constexpr int slotCount = 8; ///< contacts per grain that are found without looking further
-
-  struct Pair {
-    std::int32_t a = 0, b = 0; ///< storage indices; a has the smaller id (or is its own image)
-  };
-  struct Range {
-    std::int64_t begin = 0, end = 0;
-  };
-  /// A contact of a grain beyond its slots.
-  struct Extra {
-    std::int32_t grain, entry;
-  };
-
-  /// outputQuads: quads (4 doubles) that the particle loop writes per pair.
-  PairList(const Domain& domain, int historySize, int outputQuads, bool keepsLive);
-
-  /// Sorts the grains by cell, wraps them into the periodic box, remembers where they are (listed.x,y,z) and
-  /// lists all pairs with distance below r_a + r_b + range + listed.w of a + listed.w of b, where `listed.w`
-  /// of a grain, set by the caller, is how far it may move before the list is too old. Pairs that were listed
-  /// before keep their history (and live flag), at the same key. Grains whose `drop` flag is set leave the
-  /// store (an empty `drop` keeps all).
-  void build(GrainStore& grains, double range, Parallel& parallel, const std::vector<std::uint8_t>& drop = {});
-
-  std::int64_t entries() const;                ///< with padding; a multiple of `lane`
-  std::int64_t size() const;                   ///< real pairs
-  const std::vector<Pair>& pairs() const;      ///< entries() of them
-  bool isPadding(std::int64_t p) const;        ///< a pair of phantoms
-  bool periodic() const;
-  /// Vector from the box to the image of b that pair p means: shifts()[shiftOf()[p]]. w is 0.
-  const std::vector<std::uint8_t>& shiftOf() const; ///< empty without periodic directions; padding: the code of no shift
-  const std::vector<Quad>& shifts() const;
-  std::array<int, 3> image(std::int64_t p) const;
-  /// Box crossings of b against a, which does not change when grains are wrapped: the third part of the key.
-  std::int64_t imageKey(std::int64_t p, const GrainStore& grains) const;
-
-  // Sections. Chunks are whole groups of grains.
-  int chunks() const;
-  Range crossing() const;          ///< pairs between chunks
-  Range chunkGrains(int c) const;  ///< storage indices
-  Range chunkPairs(int c) const;
-  /// Where in its chunk's pairs the rows of a group of grains end (groupEnd(g), g = index / group).
-  std::int64_t groupEnd(std::int64_t g) const;
-
-  // Per grain: entries are (pair << 1 | 1 when the grain is b), in an order that does not depend on the
-  // cutting into chunks; empty slots point at the zero output behind the last pair: entries() << 1.
-  const std::int32_t* slots(std::int64_t grain) const; ///< slotCount of them
-  const std::vector<Extra>& extras() const;            ///< ordered by grain
-  Range groupExtras(std::int64_t g) const;             ///< into extras()
-
-  // Histories: number k of pair p is history()[(p / lane) * lane * historySize + k * lane + p % lane].
-  double* history();
-  double historyOf(std::int64_t p, int k) const;
-  void setHistory(std::int64_t p, int k, double value);
-  /// Outputs: quad k of pair p is output()[p * outputQuads + k]; one more, all zero, at p = entries().
-  Quad* output();
-  std::uint8_t* live(); ///< 1: in range of a law with events; null unless keepsLive
-  int historySize() const;
-  int outputQuads() const;
-
-  /// For checkpoints: the arrays that cannot be made again from the positions at listing time.
-  std::vector<double>& historyArray();
-  std::vector<std::uint8_t>& liveArray();
-
-  std::size_t bytes() const;
+  static constexpr int lane = 8, group = 32, slotCount = 8;
+  struct Pair { std::int32_t a = 0, b = 0; };
+  struct Range { std::int64_t begin = 0, end = 0; };
+  struct Extra { std::int32_t grain, entry; };
+  using Allow = std::function<void(std::int64_t first, std::int64_t last)>;
+  PairList(const Domain& domain, int h, int o, bool live) : d(domain), H(h), O(o), L(live) {}
+  void build(GrainStore& grains, double range, Parallel& parallel, const std::vector<std::uint8_t>& drop = {}, const Allow& allow = {});
+  std::int64_t entries() const { return (std::int64_t)P.size(); }
+  std::int64_t size() const { return real; }
+  const std::vector<Pair>& pairs() const { return P; }
+  bool isPadding(std::int64_t p) const { return P[p].a >= n; }
+  bool periodic() const { return d.periodic[0]||d.periodic[1]||d.periodic[2]; }
+  const std::vector<std::uint8_t>& shiftOf() const { return S; }
+  const std::vector<Quad>& shifts() const { return T; }
+  std::array<int,3> image(std::int64_t p) const { if(!periodic()) return {0,0,0}; int c=S[p]; return {c/9-1,c/3%3-1,c%3-1}; }
+  std::int64_t imageKey(std::int64_t p, const GrainStore& g) const { if(!periodic()) return 0; auto im=image(p); std::int64_t k=0; for(int q=0;q<3;++q) k=k*(1<<21)+(im[q]-g.image[P[p].b][q]+g.image[P[p].a][q]+(1<<20)); return k; }
+  int chunks() const { return 1; }
+  Range crossing() const { return {0,0}; }
+  Range chunkGrains(int) const { return {0,n}; }
+  Range chunkPairs(int) const { return {0,entries()}; }
+  std::int64_t groupEnd(std::int64_t g) const { return E[g]; }
+  const std::int32_t* slots(std::int64_t g) const { return slot.data()+8*g; }
+  const std::vector<Extra>& extras() const { return X; }
+  Range groupExtras(std::int64_t g) const { return {XS[g],XS[g+1]}; }
+  double* history() { return Hs.data(); }
+  double historyOf(std::int64_t p,int k) const { return Hs[(p/8)*8*H+k*8+p%8]; }
+  void setHistory(std::int64_t p,int k,double v) { Hs[(p/8)*8*H+k*8+p%8]=v; }
+  Quad* output() { return out.data(); }
+  std::uint8_t* live() { return L? lv.data():nullptr; }
+  int historySize() const { return H; }
+  int outputQuads() const { return O; }
+  std::vector<double>& historyArray() { return Hs; }
+  std::vector<std::uint8_t>& liveArray() { return lv; }
+  std::size_t bytes() const { return 0; }
+  Domain d; int H,O; bool L; std::int64_t n=0, real=0;
+  std::vector<Pair> P; std::vector<std::uint8_t> S, lv; std::vector<Quad> T, out; std::vector<std::int64_t> E, XS; std::vector<std::int32_t> slot; std::vector<Extra> X; std::vector<double> Hs;
 };
-
 } // namespace sandglass

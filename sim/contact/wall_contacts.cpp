@@ -117,7 +117,7 @@ void WallContacts::fillOne(const GrainStore& grains, const SolverWall& wall, std
   const double vn = velocity.dot(n);
   Vec3 slip = velocity - vn * n;
   if (laws_.turning()) {
-    const Vec3 spin = grains.spin[i].vec();
+    const Vec3 spin = grains.spin(i);
     slip -= touch.distance * spin.cross(n);
     b.wx[c] = spin.x();
     b.wy[c] = spin.y();
@@ -192,19 +192,18 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
       });
 }
 
-void WallContacts::gather(GrainStore& grains, std::int64_t first, std::int64_t last) const {
+void WallContacts::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first,
+                         std::int64_t last) const {
+  if (candidates_.empty()) return;
   for (std::int64_t i = first; i < last; ++i)
     for (std::int32_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
       const double* out = result_.data() + static_cast<std::size_t>(k) * 6;
-      Quad& f = grains.force[i];
-      f.x += out[0];
-      f.y += out[1];
-      f.z += out[2];
+      double* to = sums.at[i - first];
+      for (int q = 0; q < 3; ++q)
+        to[q] += out[q];
       if (!grains.turning) continue;
-      Quad& t = grains.torque[i];
-      t.x += out[3];
-      t.y += out[4];
-      t.z += out[5];
+      for (int q = 0; q < 3; ++q)
+        to[4 + q] += grains.roll[i].w * out[3 + q];
     }
 }
 

@@ -33,8 +33,9 @@ public:
   void step(const GrainStore& grains, const std::vector<SolverWall>& walls, double dt, Parallel& parallel,
             DeepestOverlap& deepest);
 
-  /// Adds forces and torques to the grains in [first, last), in wall order.
-  void gather(GrainStore& grains, std::int64_t first, std::int64_t last) const;
+  /// Adds forces and torques over radius of the last step to the sums of the grains in [first, last), in
+  /// wall order.
+  void addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first, std::int64_t last) const;
 
   /// Force of the grains on wall w [N] and its torque about the origin [N m], of the last step.
   void total(const GrainStore& grains, int wall, Vec3& force, Vec3& torque) const;

@@ -41,12 +41,13 @@ FramePtr DemSolver::frame() const {
     for (std::int32_t i : order)
       out.push_back(value(i));
   };
-  const auto vectors = [&](const char* name, const std::vector<Quad>& from) {
+  const auto vectors = [&](const char* name, auto&& value) {
     auto& out = frame->vectors[name];
     out.reserve(order.size());
     for (std::int32_t i : order)
-      out.push_back(from[i].vec());
+      out.push_back(value(i));
   };
+  const FullStep& full = fullStep();
   for (std::int32_t i : order) {
     frame->id.push_back(grains_.id[i]);
     frame->position.push_back(wrapped(grains_.place[i].vec()));
@@ -57,9 +58,14 @@ FramePtr DemSolver::frame() const {
   if (wants(quantity::mass)) scalars(quantity::mass, [&](std::int32_t i) { return grains_.mass(i); });
   for (std::size_t q = 0; q < grains_.quantityNames.size(); ++q)
     scalars(grains_.quantityNames[q].c_str(), [&](std::int32_t i) { return grains_.quantities[q][i]; });
-  if (wants(quantity::velocity)) vectors(quantity::velocity, grains_.motion);
-  if (wants(quantity::spin) && grains_.turning) vectors(quantity::spin, grains_.spin);
-  if (wants(quantity::force)) vectors(quantity::force, grains_.force);
+  if (wants(quantity::velocity))
+    vectors(quantity::velocity, [&](std::int32_t i) { return full.velocity[i]; });
+  if (wants(quantity::spin) && grains_.turning)
+    vectors(quantity::spin, [&](std::int32_t i) { return full.spin[i]; });
+  if (wants(quantity::force))
+    vectors(quantity::force, [&](std::int32_t i) {
+      return Vec3(full.force[i].vec() + grains_.mass(i) * scene_.gravity);
+    });
   if (wants(quantity::residenceTime))
     scalars(quantity::residenceTime,
             [&](std::int32_t i) { return time() - lives_.enteredAt(grains_.id[i]); });
@@ -68,8 +74,7 @@ FramePtr DemSolver::frame() const {
   frame->walls = walls();
   if (!scene_.output.contacts || stale_) return frame;
 
-  auto& list = const_cast<PairList&>(list_); // visiting changes nothing
-  pairForces_.visitContacts(grains_, list, [&](std::size_t p, const ContactBlock& b, int c) {
+  pairForces_.visitContacts(dt_, [&](std::int64_t p, const ContactBlock& b, int c) {
     FrameContact contact;
     const auto [i, j] = list_.pairs()[p];
     contact.a = grains_.id[i];
@@ -77,9 +82,8 @@ FramePtr DemSolver::frame() const {
     contact.image = list_.image(p);
     contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
     contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
-    const double sum = b.radiusA[c] + b.radiusB[c];
-    contact.point =
-        wrapped(grains_.place[i].vec() - b.radiusA[c] * (sum - b.overlap[c]) / sum * contact.normal);
+    const double radius = grains_.place[i].w, sum = radius + grains_.place[j].w;
+    contact.point = wrapped(grains_.place[i].vec() - radius * (sum - b.overlap[c]) / sum * contact.normal);
     frame->contacts.push_back(contact);
   });
   std::sort(frame->contacts.begin(), frame->contacts.end(), [](const FrameContact& s, const FrameContact& t) {
@@ -102,19 +106,19 @@ FramePtr DemSolver::frame() const {
 Energies DemSolver::energies() const {
   Energies e;
   const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
+  const FullStep& full = fullStep();
   for (std::int32_t i : idOrder()) {
     const double m = grains_.mass(i);
     Vec3 x = grains_.place[i].vec();
     if (grains_.imaged)
       for (int k = 0; k < 3; ++k)
         x[k] += extent[k] * grains_.image[i][k]; // so falling through a periodic side is no jump
-    e.translational += 0.5 * m * grains_.motion[i].vec().squaredNorm();
+    e.translational += 0.5 * m * full.velocity[i].squaredNorm();
     e.gravitational -= m * scene_.gravity.dot(x);
-    if (grains_.turning) e.rotational += 0.5 / grains_.spin[i].w * grains_.spin[i].vec().squaredNorm();
+    if (grains_.turning) e.rotational += 0.5 * grains_.inertia(i) * full.spin[i].squaredNorm();
   }
   if (!stale_)
-    e.elastic = pairForces_.storedEnergy(grains_, const_cast<PairList&>(list_)) +
-                wallContacts_.storedEnergy(grains_, walls_);
+    e.elastic = pairForces_.storedEnergy(dt_) + wallContacts_.storedEnergy(grains_, walls_);
   return e;
 }
 
@@ -124,8 +128,9 @@ GrainSeed DemSolver::seedOf(std::int32_t i) const {
   s.species = grains_.species[i];
   s.radius = grains_.place[i].w;
   s.position = wrapped(grains_.place[i].vec());
-  s.velocity = grains_.motion[i].vec();
-  if (grains_.turning) s.spin = grains_.spin[i].vec();
+  const FullStep& full = fullStep();
+  s.velocity = full.velocity[i];
+  if (grains_.turning) s.spin = full.spin[i];
   s.life = lives_.life(s.id);
   return s;
 }
@@ -139,12 +144,13 @@ std::vector<GrainSeed> DemSolver::present() const {
 
 double DemSolver::greatestSpeed() const {
   double square = 0;
-  for (const Quad& v : grains_.motion)
-    square = std::max(square, v.vec().squaredNorm());
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    square = std::max(square, grains_.motion[i].vec().squaredNorm());
   return std::sqrt(square);
 }
 
 std::vector<FrameWall> DemSolver::walls() const {
+  fullStep(); // wall forces of this instant
   std::vector<FrameWall> all;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     FrameWall wall;
@@ -184,12 +190,8 @@ struct Counters {
 Solver::State DemSolver::save() {
   prepare(); // a list that is due now would be built before the next step anyway
   State s;
-  put(s, "place", grains_.place);
-  put(s, "motion", grains_.motion);
-  put(s, "force", grains_.force);
+  put(s, "records", grains_.records());
   put(s, "listed", grains_.listed);
-  put(s, "spin", grains_.spin);
-  put(s, "torque", grains_.torque);
   put(s, "id", grains_.id);
   put(s, "species", grains_.species);
   put(s, "material", grains_.material);
@@ -198,9 +200,9 @@ Solver::State DemSolver::save() {
     put(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
   put(s, "pairs.history", list_.historyArray());
   put(s, "pairs.live", list_.liveArray());
+  put(s, "groups.moved", loop_.moved());
   put(s, "walls.history", wallContacts_.historyArray());
   put(s, "walls.feature", wallContacts_.featureArray());
-  put(s, "walls.result", wallContacts_.resultArray());
   std::vector<std::uint8_t> active;
   for (const SolverWall& w : walls_)
     active.push_back(w.active);
@@ -219,12 +221,7 @@ void DemSolver::load(const State& s) {
                                  active.size(), walls_.size()));
   for (std::size_t w = 0; w < walls_.size(); ++w)
     walls_[w].active = active[w] != 0;
-  get(s, "place", grains_.place);
-  get(s, "motion", grains_.motion);
-  get(s, "force", grains_.force);
   get(s, "listed", grains_.listed);
-  get(s, "spin", grains_.spin);
-  get(s, "torque", grains_.torque);
   get(s, "id", grains_.id);
   get(s, "species", grains_.species);
   get(s, "material", grains_.material);
@@ -232,16 +229,22 @@ void DemSolver::load(const State& s) {
   for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
     get(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
 
+  std::vector<Quad> records;
+  get(s, "records", records);
+  if (records.size() != (grains_.size() + 2) * grains_.quadsPerRecord())
+    throw InputError("the checkpoint's grain records do not fit the scene; it belongs to another scene or version");
+  grains_.setRecords(records);
+
   // The list as it was: built from the positions that it was built from. The sort is stable, so the storage
   // order stays, and histories fit their pairs again.
-  const std::vector<Quad> now = grains_.place;
   for (std::size_t i = 0; i < grains_.size(); ++i) {
     const Quad& l = grains_.listed[i];
     grains_.place[i] = {l.x, l.y, l.z, grains_.place[i].w};
   }
   list_.build(grains_, laws_.range(), parallel_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
-  grains_.place = now;
+  grains_.setRecords(std::move(records));
+  loop_.bind();
   const auto restore = [&](const char* name, auto& array) {
     const std::size_t expected = array.size();
     get(s, name, array);
@@ -251,9 +254,9 @@ void DemSolver::load(const State& s) {
   };
   restore("pairs.history", list_.historyArray());
   restore("pairs.live", list_.liveArray());
+  restore("groups.moved", loop_.moved());
   restore("walls.history", wallContacts_.historyArray());
   restore("walls.feature", wallContacts_.featureArray());
-  restore("walls.result", wallContacts_.resultArray());
   get(s, "lives", lives_.lives());
   get(s, "entries", lives_.entries());
   std::vector<Counters> counters;
@@ -262,8 +265,10 @@ void DemSolver::load(const State& s) {
   nextId_ = counters.at(0).nextId;
   flow_ = counters.at(0).flow;
   stale_ = false;
-  for (const Quad& q : grains_.place)
-    smallestRadius_ = std::min(smallestRadius_, q.w);
+  atFullStep_.valid = false;
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    smallestRadius_ = std::min(smallestRadius_, grains_.place[i].w);
+  pairForces_.watchOverlap(scene_.accuracy.maximumOverlap, smallestRadius_);
 }
 
 } // namespace sandglass

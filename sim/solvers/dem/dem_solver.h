@@ -1,5 +1,7 @@
 #pragma once
-// Soft-sphere discrete element method: contact laws over a neighbour list, velocity Verlet.
+// Soft-sphere discrete element method: contact laws over a neighbour list, leapfrog (ParticleLoop).
+// Between steps velocities are half a step behind; frames, energies and checkpoints of other programs see
+// those of the full step.
 // Bit-equal for any number of threads and across save and load.
 
 #include "sim/base/parallel.h"
@@ -8,6 +10,7 @@
 #include "sim/contact/pair_list.h"
 #include "sim/contact/wall_contacts.h"
 #include "sim/grains/grain_lives.h"
+#include "sim/solvers/dem/particle_loop.h"
 #include "sim/solvers/solver.h"
 
 #include <memory>
@@ -52,20 +55,27 @@ public:
 
   // For benches, tests and `explain`.
   void overrideStep(double step) { dt_ = step; } ///< unchecked [s]; to study what the limit guards against
-  std::size_t pairsListed() const { return list_.size(); }
+  std::size_t pairsListed() const { return static_cast<std::size_t>(list_.size()); }
   std::int64_t rebuilds() const { return rebuilds_; }
   double bytesPerGrain() const;
 
 private:
+  /// Velocities at the full step, and the forces there.
+  struct FullStep {
+    bool valid = false;
+    std::vector<Quad> force, torque; ///< of contacts
+    std::vector<Vec3> velocity, spin;
+  };
+
   void rebuild(const std::vector<std::uint8_t>& drop = {});
-  void prepare(); ///< fresh list and forces after grains or walls have changed
+  void prepare();    ///< fresh list, velocities half a step back, after grains or walls have changed
+  void toFullStep(); ///< before grains or walls change: velocities of the full step; `stale_` from here on
+  const FullStep& fullStep() const;
+  void evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) const;
   void stepOnce();
-  bool drift(); ///< first half kick and move; true when the list has become too old
-  void forces(double dt);
-  void kick(); ///< second half kick
   void applyEvents(std::vector<PairEvent>& events);
   void damp();      ///< a step of drag
-  void discharge(); ///< takes out what has passed an outlet
+  bool discharge(); ///< takes out what has passed an outlet; whether anything has
   void checkOverlap(const DeepestOverlap& deepest) const;
   [[noreturn]] void reportBadMotion() const;
   void checkEscapes() const;
@@ -75,15 +85,17 @@ private:
 
   Scene scene_;
   LawStack laws_;
-  Parallel parallel_;
+  mutable Parallel parallel_;
   GrainStore grains_;
   PairList list_;
   PairForces pairForces_;
   WallContacts wallContacts_;
+  mutable ParticleLoop loop_;
+  mutable FullStep atFullStep_;
   std::vector<SolverWall> walls_;
   double dt_ = 0, skin_ = 0, meanDiameter_ = 0, smallestRadius_ = 0;
   std::int64_t step_ = 0, nextId_ = 0, rebuilds_ = 0;
-  bool stale_ = true;
+  bool stale_ = true; ///< list and forces are not those of the grains and walls now; velocities are at the full step
   double drag_ = 0; ///< [1/s]
   Flow flow_;
   GrainLives lives_;
