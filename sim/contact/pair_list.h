@@ -2,84 +2,149 @@
 // Who may touch whom: all pairs of grains nearer than reach + skin, with every periodic image as a pair of
 // its own, so a box may be thinner than two cut-offs. A pair is keyed (id, id, image); its history lives in
 // the list from birth to death and is carried over when the list is built anew.
+//
+// The list is laid out for the particle loop. Grains are sorted by cell. A pair belongs to the row of its
+// grain that comes first in storage, so once row i is done every contact of grain i is known and nobody later
+// reads its old state. Rows are cut into chunks of grains for threads; pairs between two chunks stand in a
+// section of their own that is evaluated first. Sections start at multiples of `lane` and are padded with
+// pairs of two phantom grains (storage indices grains.size() and grains.size() + 1) that never touch.
+// The cutting depends on the number of grains alone, never on the number of threads.
 
 #include "sim/base/parallel.h"
+#include "sim/contact/cell_grid.h"
+#include "sim/contact/pair_listing.h"
+#include "sim/contact/pair_search.h"
 #include "sim/grains/grain_store.h"
 #include "sim/scene/scene.h"
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sandglass {
 
 class PairList {
 public:
-  struct Pair {
-    std::int32_t a = 0, b = 0; ///< storage indices; a has the smaller id (or is its own image)
+  /// Pairs that a vector loop takes at once; histories are grouped so.
+  static constexpr int lane = PairListing::lane;
+  /// Grains that are integrated together.
+  static constexpr int group = PairListing::group;
+  /// Contacts per grain that are found without looking further.
+  static constexpr int slotCount = PairListing::slotCount;
+
+  /// Storage indices a and b; a has the smaller id (or is its own image).
+  using Pair = PairListing::Pair;
+  /// A contact of a grain beyond its slots.
+  using Extra = PairListing::Extra;
+  struct Range {
+    std::int64_t begin = 0, end = 0;
   };
 
-  PairList(const Domain& domain, int historySize, int outputSize);
+  /// outputQuads: quads (4 doubles) that the particle loop writes per pair.
+  PairList(const Domain& domain, int historySize, int outputQuads, bool keepsLive);
 
-  /// Sorts the grains by cell, wraps them into the periodic box, remembers where they are and lists all pairs
-  /// with distance below r_a + r_b + range + allowed_a + allowed_b, where `listed.w` of a grain holds how far
-  /// it may move before the list is too old. Live pairs keep their history, at the same key.
-  /// Grains whose `drop` flag is set leave the store (an empty `drop` keeps all).
-  void build(GrainStore& grains, double range, Parallel& parallel,
-             const std::vector<std::uint8_t>& drop = {});
+  /// Sets `listed.w` of the grains first .. last - 1, of one group. Called from several threads at once, for
+  /// different groups. The largest value of all grains must stay what it was.
+  using Allow = std::function<void(std::int64_t first, std::int64_t last)>;
 
-  std::size_t size() const { return pairs_.size(); }
-  const std::vector<Pair>& pairs() const { return pairs_; }
+  /// Sorts the grains by cell, wraps them into the periodic box, remembers where they are (listed.x,y,z) and
+  /// lists all pairs with distance below r_a + r_b + range + listed.w of a + listed.w of b, where `listed.w`
+  /// of a grain, set by the caller, is how far it may move before the list is too old. `allow` may set it
+  /// anew once the grains are sorted and grouped. Pairs that were listed before keep their history (and live
+  /// flag), at the same key; since then, grains may have been appended, but not moved in storage. Grains
+  /// whose `drop` flag is set leave the store (an empty `drop` keeps all).
+  void build(GrainStore& grains, double range, Parallel& parallel, const std::vector<std::uint8_t>& drop = {},
+             const Allow& allow = {});
+
+  std::int64_t entries() const { return now_.entries; }         ///< with padding; a multiple of `lane`
+  std::int64_t size() const { return size_; }                   ///< real pairs
+  const std::vector<Pair>& pairs() const { return now_.pairs; } ///< entries() of them
+  bool isPadding(std::int64_t p) const { return now_.pairs[p].a >= now_.grains; } ///< a pair of phantoms
   bool periodic() const { return periodic_; }
-  /// Vector from the box to the image of b that pair p means.
-  const Vec3& shift(std::size_t p) const { return shifts_[shiftOf_[p]]; }
-  const std::vector<std::uint8_t>& shiftOf() const { return shiftOf_; }
-  const std::vector<Vec3>& shifts() const { return shifts_; }
-  std::array<int, 3> image(std::size_t p) const;
+  /// Vector from the box to the image of b that pair p means: shifts()[shiftOf()[p]]. w is 0. Empty without
+  /// periodic directions; padding: the code of no shift.
+  const std::vector<std::uint8_t>& shiftOf() const { return now_.shiftOf; }
+  const std::vector<Quad>& shifts() const { return now_.codes.shift; }
+  std::array<int, 3> image(std::int64_t p) const;
   /// Box crossings of b against a, which does not change when grains are wrapped: the third part of the key.
-  std::int64_t imageKey(std::size_t p) const { return periodic_ ? imageKey_[p] : 0; }
+  std::int64_t imageKey(std::int64_t p, const GrainStore& grains) const;
 
-  std::uint8_t* live() { return live_.data(); }
-  double* history(std::size_t p) { return history_.data() + p * historySize_; }
-  double* output(std::size_t p) { return output_.data() + p * outputSize_; }
-  const double* outputs() const { return output_.data(); }
+  // Sections. Chunks are whole groups of grains. Ranges of pairs include their padding: crossing() and the
+  // chunks' pairs follow each other without gaps, up to entries().
+  int chunks() const { return static_cast<int>(chunkGrains_.size()); }
+  Range crossing() const { return crossing_; }               ///< pairs between chunks
+  Range chunkGrains(int c) const { return chunkGrains_[c]; } ///< storage indices
+  Range chunkPairs(int c) const { return chunkPairs_[c]; }
+  /// Where in its chunk's pairs the rows of a group of grains end: a pair index, not padded. The first group
+  /// of a chunk begins at chunkPairs(c).begin. g = index / group.
+  std::int64_t groupEnd(std::int64_t g) const { return groupEnd_[g]; }
+
+  // Per grain: entries are (pair << 1 | 1 when the grain is b), in an order that does not depend on the
+  // cutting into chunks; empty slots point at the zero output behind the last pair: entries() << 1.
+  const std::int32_t* slots(std::int64_t grain) const { return now_.slots.data() + grain * slotCount; }
+  const std::vector<Extra>& extras() const { return now_.extras; } ///< ordered by grain
+  Range groupExtras(std::int64_t g) const {                        ///< into extras()
+    return {now_.groupExtras[g], now_.groupExtras[g + 1]};
+  }
+
+  // Histories: number k of pair p is history()[(p / lane) * lane * historySize + k * lane + p % lane].
+  double* history() { return now_.history.data(); }
+  double historyOf(std::int64_t p, int k) const { return now_.history[placeOf(p, k)]; }
+  void setHistory(std::int64_t p, int k, double value) { now_.history[placeOf(p, k)] = value; }
+  /// Outputs: quad k of pair p is output()[p * outputQuads + k]; one more, all zero, at p = entries(). What
+  /// stands in the others after a build means nothing.
+  Quad* output() { return output_.data(); }
+  std::uint8_t* live() {
+    return keepsLive_ ? now_.live.data() : nullptr;
+  } ///< 1: in range of a law with events; null unless keepsLive
   int historySize() const { return historySize_; }
-  int outputSize() const { return outputSize_; }
+  int outputQuads() const { return outputQuads_; }
 
-  /// Pairs of grain i as (pair << 1 | 1 when i is b), ordered by partner (id, image): the order in which its
-  /// forces are summed, whatever the storage order or the age of the list.
-  const std::int32_t* begin(std::size_t i) const { return entries_.data() + offsets_[i]; }
-  const std::int32_t* end(std::size_t i) const { return entries_.data() + offsets_[i + 1]; }
-
-  /// For checkpoints: the arrays that cannot be made again from positions.
-  std::vector<double>& historyArray() { return history_; }
-  std::vector<std::uint8_t>& liveArray() { return live_; }
-  const std::vector<double>& historyArray() const { return history_; }
-  const std::vector<std::uint8_t>& liveArray() const { return live_; }
+  /// For checkpoints: the arrays that cannot be made again from the positions at listing time.
+  std::vector<double>& historyArray() { return now_.history; }
+  std::vector<std::uint8_t>& liveArray() { return now_.live; }
 
   std::size_t bytes() const;
 
 private:
-  struct Cells;
-  void wrap(GrainStore& grains) const;
-  void search(const GrainStore& grains, const Cells& cells, double range, Parallel& parallel);
-  void link(const GrainStore& grains);
-  void carry(const PairList& old, const std::vector<std::int32_t>& oldIndex, const GrainStore& grains,
-             Parallel& parallel);
+  /// Rows that one thread searches and writes at a time, whole groups within a chunk.
+  struct Block {
+    std::int64_t firstGrain, lastGrain, chunk;
+    std::int64_t firstPair = 0, firstCrossing = 0; ///< where its rows go
+    FoundRows rows;
+  };
+
+  std::size_t placeOf(std::int64_t p, int k) const {
+    return static_cast<std::size_t>(p / lane * lane * historySize_ + k * lane + p % lane);
+  }
+  void wrap(GrainStore& grains, Parallel& parallel);
+  void fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow);
+  void cut(std::int64_t grains);
+  void search(Parallel& parallel);
+  void layOut();
+  void fillPadding(std::int64_t from, std::int64_t to);
+  void writeRows(const GrainStore& grains, Parallel& parallel);
+  void link(Parallel& parallel);
 
   Domain domain_;
-  Vec3 extent_ = Vec3::Zero();
   bool periodic_ = false;
-  int historySize_, outputSize_;
-  std::vector<Vec3> shifts_; ///< one per image code
-  std::vector<std::array<int, 3>> codes_;
-  std::vector<Pair> pairs_;
-  std::vector<std::uint8_t> shiftOf_; ///< image code of a pair; empty without periodic directions
-  std::vector<std::int64_t> imageKey_;
-  std::vector<std::uint8_t> live_;
-  std::vector<double> history_, output_;
-  std::vector<std::int64_t> partnerIds_; ///< ids of a and b at build time, for carrying history
-  std::vector<std::int32_t> offsets_, entries_;
+  int historySize_, outputQuads_;
+  bool keepsLive_;
+  PairListing now_, past_; ///< past_: the listing before, while histories are carried
+  std::int64_t size_ = 0;
+  std::vector<Quad> output_;
+  Range crossing_;
+  std::vector<Range> chunkGrains_, chunkPairs_,
+      chunkCrossing_; ///< the last: crossing rows of a chunk's grains
+  std::vector<std::int64_t> groupEnd_;
+
+  // Of use during a build alone; kept because asking for memory anew costs more than the search.
+  CellGrid grid_;
+  GrainColumns columns_;
+  std::vector<Block> blocks_;
+  std::vector<std::int32_t> rowLength_, wrapped_;
+  std::vector<std::uint8_t> filled_;
 };
 
 } // namespace sandglass
