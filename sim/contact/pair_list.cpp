@@ -1,15 +1,21 @@
 #include "sim/contact/pair_list.h"
 
 #include "sim/base/error.h"
+#include "sim/contact/pair_carry.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace sandglass {
 
 namespace {
+
+constexpr std::int64_t grainsPerPiece = 2048;
+constexpr std::int64_t grainsPerChunk = 2048, mostChunks = 16;
+constexpr std::int64_t groupsPerBlock = 8, mostBlocks = 64; ///< least and most
 
 /// Three small signed counters in one integer that orders like the tuple.
 std::int64_t packImage(const std::array<std::int64_t, 3>& n) {
@@ -20,294 +26,307 @@ std::int64_t packImage(const std::array<std::int64_t, 3>& n) {
 double& component(Quad& q, int axis) {
   return axis == 0 ? q.x : axis == 1 ? q.y : q.z;
 }
-double component(const Quad& q, int axis) {
-  return axis == 0 ? q.x : axis == 1 ? q.y : q.z;
+
+std::int64_t padded(std::int64_t n) {
+  return (n + PairList::lane - 1) / PairList::lane * PairList::lane;
+}
+
+/// Room for n values that will all be written: old values are not copied into larger memory.
+template <class T> void makeRoom(std::vector<T>& values, std::int64_t n, std::int64_t spare = 0) {
+  if (values.capacity() < static_cast<std::size_t>(n + spare)) {
+    std::vector<T>().swap(values);
+    values.reserve(static_cast<std::size_t>(n + n / 16 + spare));
+  }
+  values.resize(static_cast<std::size_t>(n));
 }
 
 } // namespace
 
-/// A grid over the grains: exact periodic fit along periodic directions, the grains' bounds elsewhere.
-struct PairList::Cells {
-  Vec3 lower, width;
-  std::array<int, 3> count{1, 1, 1}, reach{0, 0, 0}; ///< cells along an axis; cells to look beyond one's own
-  std::array<bool, 3> periodic{};
-  std::vector<std::int32_t> start; ///< first grain of each cell, in storage order
-
-  int along(const Quad& q, int axis) const {
-    const int c = static_cast<int>((component(q, axis) - lower[axis]) / width[axis]);
-    return std::clamp(c, 0, count[axis] - 1);
-  }
-  int index(int x, int y, int z) const { return (x * count[1] + y) * count[2] + z; }
-  int of(const Quad& q) const { return index(along(q, 0), along(q, 1), along(q, 2)); }
-};
-
-PairList::PairList(const Domain& domain, int historySize, int outputSize)
-    : domain_(domain), extent_(domain.upper - domain.lower), historySize_(historySize),
-      outputSize_(outputSize) {
+PairList::PairList(const Domain& domain, int historySize, int outputQuads, bool keepsLive)
+    : domain_(domain), historySize_(historySize), outputQuads_(outputQuads), keepsLive_(keepsLive),
+      output_(static_cast<std::size_t>(outputQuads)) {
   for (int k = 0; k < 3; ++k)
     periodic_ = periodic_ || domain.periodic[k];
-}
-
-void PairList::wrap(GrainStore& grains) const {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!domain_.periodic[axis]) continue;
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-      double& x = component(grains.place[i], axis);
-      while (x >= domain_.upper[axis])
-        x -= extent_[axis], ++grains.image[i][axis];
-      while (x < domain_.lower[axis])
-        x += extent_[axis], --grains.image[i][axis];
-      if (x >= domain_.upper[axis]) x = domain_.lower[axis]; // x + L rounded up to the upper side
-    }
-  }
+  now_.groupExtras.assign(1, 0);
 }
 
 void PairList::build(GrainStore& grains, double range, Parallel& parallel,
-                     const std::vector<std::uint8_t>& drop) {
-  const std::size_t n = grains.size();
-  if (periodic_) wrap(grains);
+                     const std::vector<std::uint8_t>& drop, const Allow& allow) {
+  if (periodic_) wrap(grains, parallel);
+  grid_.sort(grains, domain_, range, parallel, drop);
+  grains.reorder(grid_.order(), parallel);
+  fillColumns(grains, range, parallel, allow);
 
-  // Grains that go must not shape the grid: a list built anew from the positions of those that stay is the
-  // same.
-  const auto stays = [&](std::size_t i) { return drop.empty() || !drop[i]; };
-  std::size_t staying = 0;
-  Cells cells;
-  double largest = 0.0;
-  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!stays(i)) continue;
-    const Quad& q = grains.place[i];
-    ++staying;
-    largest = std::max(largest, q.w + grains.listed[i].w);
-    low = low.cwiseMin(q.vec());
-    high = high.cwiseMax(q.vec());
-  }
-  const double cutoff = 2.0 * largest + range;
-  double cell = cutoff;
-  for (int attempt = 0;; ++attempt) { // wide empty spaces get larger cells, so memory follows the grains
-    double total = 1.0;
-    for (int k = 0; k < 3; ++k) {
-      cells.periodic[k] = domain_.periodic[k];
-      cells.lower[k] = domain_.periodic[k] ? domain_.lower[k] : (staying ? low[k] : 0.0);
-      const double length = domain_.periodic[k] ? extent_[k] : (staying ? high[k] - low[k] : 0.0);
-      cells.count[k] = static_cast<int>(std::clamp(std::floor(length / cell), 1.0, 1e6));
-      cells.width[k] = std::max(length / cells.count[k], 1e-300);
-      cells.reach[k] = !domain_.periodic[k] && cells.count[k] == 1
-                           ? 0
-                           : static_cast<int>(std::ceil(cutoff / cells.width[k]));
-      total *= cells.count[k];
-    }
-    if (total <= 4.0 * static_cast<double>(staying) + 1000.0 || attempt > 60) break;
-    cell *= 1.26;
-  }
-
-  // Counting sort by cell; equal cells keep their order.
-  const int cellCount = cells.count[0] * cells.count[1] * cells.count[2];
-  std::vector<std::int32_t> cellOf(n), cursor(cellCount + 1, 0);
-  for (std::size_t i = 0; i < n; ++i)
-    if (stays(i)) ++cursor[(cellOf[i] = cells.of(grains.place[i])) + 1];
-  for (int c = 0; c < cellCount; ++c)
-    cursor[c + 1] += cursor[c];
-  cells.start = cursor;
-  std::vector<std::int32_t> order(cursor.back());
-  for (std::size_t i = 0; i < n; ++i)
-    if (stays(i)) order[cursor[cellOf[i]]++] = static_cast<std::int32_t>(i);
-  grains.reorder(order);
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    const Quad& x = grains.place[i];
-    grains.listed[i] = {x.x, x.y, x.z, grains.listed[i].w};
-  }
-
-  PairList old(domain_, historySize_, outputSize_);
-  std::swap(old.pairs_, pairs_);
-  std::swap(old.imageKey_, imageKey_);
-  std::swap(old.live_, live_);
-  std::swap(old.history_, history_);
-  std::swap(old.partnerIds_, partnerIds_);
-  std::swap(old.offsets_, offsets_);
-  std::swap(old.entries_, entries_);
-
-  search(grains, cells, range, parallel);
-  link(grains);
-  history_.assign(pairs_.size() * historySize_, 0.0);
-  output_.assign(pairs_.size() * outputSize_, 0.0);
-  live_.assign(pairs_.size(), 0);
-  carry(old, order, grains, parallel);
+  std::swap(now_, past_);
+  past_.pairs.push_back({-1, -1}); // what empty slots point at
+  if (periodic_) now_.codes = ImageCodes(domain_, 2.0 * grid_.largestReach());
+  now_.grains = static_cast<std::int64_t>(grains.size());
+  cut(now_.grains);
+  search(parallel);
+  layOut();
+  writeRows(grains, parallel);
+  link(parallel);
 }
 
-void PairList::search(const GrainStore& grains, const Cells& cells, double range, Parallel& parallel) {
-  // Image codes: every shift that the stencil can meet.
-  codes_.clear();
-  shifts_.clear();
-  std::array<int, 3> codeReach{0, 0, 0};
-  for (int k = 0; k < 3; ++k)
-    if (cells.periodic[k]) codeReach[k] = (cells.reach[k] + cells.count[k] - 1) / cells.count[k];
-  for (int x = -codeReach[0]; x <= codeReach[0]; ++x)
-    for (int y = -codeReach[1]; y <= codeReach[1]; ++y)
-      for (int z = -codeReach[2]; z <= codeReach[2]; ++z) {
-        codes_.push_back({x, y, z});
-        shifts_.emplace_back(x * extent_[0], y * extent_[1], z * extent_[2]);
-      }
-  if (codes_.size() > 255)
-    throw InputError(fmt::format(
-        "the periodic box is so thin that a pair has {} images; at most 255 are possible: make the "
-        "box wider than half a grain",
-        codes_.size()));
-  const auto codeOf = [&](int x, int y, int z) {
-    return ((x + codeReach[0]) * (2 * codeReach[1] + 1) + y + codeReach[1]) * (2 * codeReach[2] + 1) + z +
-           codeReach[2];
-  };
-
+void PairList::wrap(GrainStore& grains, Parallel& parallel) {
+  const Vec3 extent = domain_.upper - domain_.lower;
   const std::int64_t n = static_cast<std::int64_t>(grains.size());
-  struct Found {
-    Pair pair;
-    std::uint8_t code;
+  wrapped_.resize(static_cast<std::size_t>(n));
+  parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      std::array<int, 3> shift{0, 0, 0};
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!domain_.periodic[axis]) continue;
+        double& x = component(grains.place[i], axis);
+        if (x >= domain_.lower[axis] && x < domain_.upper[axis]) continue;
+        while (x >= domain_.upper[axis])
+          x -= extent[axis], ++shift[axis];
+        while (x < domain_.lower[axis])
+          x += extent[axis], --shift[axis];
+        if (x >= domain_.upper[axis]) x = domain_.lower[axis]; // x + L rounded up to the upper side
+        grains.image[i][axis] += shift[axis];
+      }
+      wrapped_[i] = PairCarrier::pack(shift);
+    }
+  });
+}
+
+void PairList::fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow) {
+  const std::int64_t n = static_cast<std::int64_t>(grains.size());
+  columns_.resize(static_cast<std::size_t>(n));
+  parallel.forRange((n + group - 1) / group, grainsPerPiece / group, [&](std::int64_t from, std::int64_t to) {
+    for (std::int64_t g = from; g < to; ++g) {
+      const std::int64_t first = g * group, last = std::min(n, first + group);
+      for (std::int64_t i = first; i < last; ++i) {
+        const Quad q = grains.place[i];
+        grains.listed[i] = {q.x, q.y, q.z, grains.listed[i].w};
+        columns_.x[i] = q.x;
+        columns_.y[i] = q.y;
+        columns_.z[i] = q.z;
+        columns_.reach[i] = q.w + 0.5 * range;
+      }
+      if (allow) allow(first, last);
+      for (std::int64_t i = first; i < last; ++i)
+        columns_.reach[i] += grains.listed[i].w;
+    }
+  });
+}
+
+/// Chunks and blocks of whole groups.
+void PairList::cut(std::int64_t grains) {
+  const std::int64_t groups = now_.groups();
+  const std::int64_t chunks = static_cast<std::int64_t>(std::bit_floor(
+      static_cast<std::uint64_t>(std::clamp<std::int64_t>(grains / grainsPerChunk, 1, mostChunks))));
+  const auto firstGrain = [&](std::int64_t g) { return std::min(g * group, grains); };
+  chunkGrains_.clear();
+  std::size_t used = 0;
+  for (std::int64_t c = 0; c < chunks; ++c) {
+    const std::int64_t begin = groups * c / chunks, end = groups * (c + 1) / chunks;
+    chunkGrains_.push_back({firstGrain(begin), firstGrain(end)});
+    const std::int64_t count =
+        std::clamp<std::int64_t>((end - begin) / groupsPerBlock, 1, mostBlocks / chunks);
+    for (std::int64_t b = 0; b < count; ++b) {
+      if (used == blocks_.size()) blocks_.emplace_back();
+      Block& block = blocks_[used++]; // keeps its memory
+      block.firstGrain = firstGrain(begin + (end - begin) * b / count);
+      block.lastGrain = firstGrain(begin + (end - begin) * (b + 1) / count);
+      block.chunk = c;
+    }
+  }
+  blocks_.resize(used);
+}
+
+void PairList::search(Parallel& parallel) {
+  rowLength_.resize(static_cast<std::size_t>(now_.grains));
+  const PairSearch search(grid_, now_.codes, columns_, bestKernelWidth());
+  parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t b = first; b < last; ++b) {
+      Block& block = blocks_[b];
+      search.rows(block.firstGrain, block.lastGrain, chunkGrains_[block.chunk].end,
+                  rowLength_.data() + block.firstGrain, block.rows);
+    }
+  });
+}
+
+/// Where the rows of each block go.
+void PairList::layOut() {
+  const std::size_t chunks = chunkGrains_.size();
+  chunkPairs_.assign(chunks, {});
+  chunkCrossing_.assign(chunks, {});
+  std::int64_t at = 0;
+  size_ = 0;
+  for (Block& block : blocks_) {
+    block.firstCrossing = at;
+    if (block.firstGrain == chunkGrains_[block.chunk].begin) chunkCrossing_[block.chunk].begin = at;
+    at += block.rows.crossing;
+    size_ += block.rows.size;
+    chunkCrossing_[block.chunk].end = at;
+  }
+  const std::int64_t crossings = at;
+  crossing_ = {0, at = padded(at)};
+  std::int64_t chunk = -1;
+  std::vector<Range> pads{{crossings, at}};
+  const auto close = [&] {
+    if (chunk < 0) return;
+    pads.push_back({at, padded(at)});
+    chunkPairs_[chunk].end = at = padded(at);
   };
-  constexpr std::int64_t chunk = 512;
-  std::vector<std::vector<Found>> found(static_cast<std::size_t>((n + chunk - 1) / chunk));
-  const Quad *place = grains.place.data(), *listed = grains.listed.data();
-  parallel.forRange(static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t c = first; c < last; ++c) {
-      auto& out = found[c];
-      out.reserve(chunk * 6);
-      for (std::int64_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
-        const Quad me = place[i];
-        const double mine = me.w + listed[i].w + range;
-        const std::array<int, 3> home{cells.along(me, 0), cells.along(me, 1), cells.along(me, 2)};
-        const auto visit = [&](std::int32_t begin, std::int32_t end, int code) {
-          const Vec3& s = shifts_[code];
-          const double px = me.x - s.x(), py = me.y - s.y(), pz = me.z - s.z();
-          for (std::int32_t j = begin; j < end; ++j) {
-            const double dx = px - place[j].x, dy = py - place[j].y, dz = pz - place[j].z;
-            const double reach = mine + place[j].w + listed[j].w;
-            if (dx * dx + dy * dy + dz * dz < reach * reach)
-              out.push_back({{static_cast<std::int32_t>(i), j}, static_cast<std::uint8_t>(code)});
+  for (Block& block : blocks_) {
+    if (block.chunk != chunk) {
+      close();
+      chunk = block.chunk;
+      chunkPairs_[chunk].begin = at;
+    }
+    block.firstPair = at;
+    at += block.rows.size - block.rows.crossing;
+  }
+  close();
+  if (at >= std::int64_t{1} << 30)
+    throw RunError(fmt::format(
+        "the list of pairs has {} entries; at most 2^30 are possible: use fewer grains or a smaller skin",
+        at));
+
+  now_.entries = at;
+  makeRoom(now_.pairs, at, 1);
+  if (periodic_) makeRoom(now_.shiftOf, at);
+  makeRoom(now_.history, at * historySize_);
+  if (keepsLive_) makeRoom(now_.live, at);
+  makeRoom(output_, (at + 1) * outputQuads_);
+  std::fill(output_.end() - outputQuads_, output_.end(), Quad{});
+  groupEnd_.resize(static_cast<std::size_t>(now_.groups()));
+  for (const Range& pad : pads)
+    fillPadding(pad.begin, pad.end);
+}
+
+void PairList::fillPadding(std::int64_t from, std::int64_t to) {
+  for (std::int64_t p = from; p < to; ++p) {
+    now_.pairs[p] = {static_cast<std::int32_t>(now_.grains), static_cast<std::int32_t>(now_.grains + 1)};
+    if (periodic_) now_.shiftOf[p] = static_cast<std::uint8_t>(now_.codes.center());
+    if (keepsLive_) now_.live[p] = 0;
+    for (int k = 0; k < historySize_; ++k)
+      setHistory(p, k, 0.0);
+  }
+}
+
+void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
+  const bool carries = historySize_ > 0 || keepsLive_;
+  const std::int64_t* id = grains.id.data();
+  parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
+    PairCarrier carrier(past_, now_, grid_.order(), wrapped_, historySize_);
+    for (std::int64_t b = first; b < last; ++b) {
+      const Block& block = blocks_[b];
+      const std::int64_t chunkEnd = chunkGrains_[block.chunk].end;
+      const std::int32_t* partner = block.rows.partner.data();
+      const std::uint8_t* code = periodic_ ? block.rows.code.data() : nullptr;
+      std::int64_t inside = block.firstPair, crossing = block.firstCrossing;
+      for (std::int64_t i = block.firstGrain; i < block.lastGrain; ++i) {
+        if (carries) carrier.openRow(i);
+        for (std::int32_t k = 0; k < rowLength_[i]; ++k) {
+          const std::int32_t j = *partner++;
+          const std::int64_t p = j < chunkEnd ? inside++ : crossing++;
+          // Oriented by id; turning a pair round mirrors its image.
+          const bool turned = id[i] > id[j];
+          const std::int32_t me = static_cast<std::int32_t>(i);
+          now_.pairs[p] = turned ? Pair{j, me} : Pair{me, j};
+          if (code) {
+            now_.shiftOf[p] = static_cast<std::uint8_t>(turned ? now_.codes.mirrored(*code) : *code);
+            ++code;
           }
-        };
-        const int center = codeOf(0, 0, 0);
-        for (int x = home[0] - cells.reach[0]; x <= home[0] + cells.reach[0]; ++x) {
-          const int ix =
-              cells.periodic[0] ? static_cast<int>(std::floor(static_cast<double>(x) / cells.count[0])) : 0;
-          const int wx = x - ix * cells.count[0];
-          if (wx < 0 || wx >= cells.count[0]) continue;
-          for (int y = home[1] - cells.reach[1]; y <= home[1] + cells.reach[1]; ++y) {
-            const int iy =
-                cells.periodic[1] ? static_cast<int>(std::floor(static_cast<double>(y) / cells.count[1])) : 0;
-            const int wy = y - iy * cells.count[1];
-            if (wy < 0 || wy >= cells.count[1]) continue;
-            for (int z = home[2] - cells.reach[2]; z <= home[2] + cells.reach[2]; ++z) {
-              const int iz = cells.periodic[2]
-                                 ? static_cast<int>(std::floor(static_cast<double>(z) / cells.count[2]))
-                                 : 0;
-              const int wz = z - iz * cells.count[2];
-              if (wz < 0 || wz >= cells.count[2]) continue;
-              const int cell = cells.index(wx, wy, wz), code = codeOf(ix, iy, iz);
-              // Each pair once: partners later in storage; oneself only in "positive" images.
-              const std::int32_t begin = std::max(cells.start[cell], static_cast<std::int32_t>(i) + 1);
-              visit(begin, std::max(begin, cells.start[cell + 1]), code);
-              if (code > center && cells.start[cell] <= i && i < cells.start[cell + 1])
-                visit(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i) + 1, code);
-            }
-          }
+          if (carries) carrier.carry(j, p);
         }
+        if ((i + 1) % group == 0 || i + 1 == block.lastGrain) groupEnd_[i / group] = inside;
       }
     }
   });
+}
 
-  std::size_t total = 0;
-  for (const auto& f : found)
-    total += f.size();
-  pairs_.clear();
-  pairs_.reserve(total);
-  shiftOf_.clear();
-  imageKey_.clear();
-  partnerIds_.clear();
-  if (periodic_) {
-    shiftOf_.reserve(total);
-    imageKey_.reserve(total);
-  }
-  const int lastCode = static_cast<int>(codes_.size()) - 1;
-  for (const auto& f : found)
-    for (const Found& pair : f) {
-      // Orient by id; turning a pair round mirrors its image.
-      const bool swap = grains.id[pair.pair.a] > grains.id[pair.pair.b];
-      const Pair oriented = swap ? Pair{pair.pair.b, pair.pair.a} : pair.pair;
-      const int code = swap ? lastCode - pair.code : pair.code;
-      pairs_.push_back(oriented);
-      if (!periodic_) continue;
-      shiftOf_.push_back(static_cast<std::uint8_t>(code));
-      std::array<std::int64_t, 3> key{};
-      for (int k = 0; k < 3; ++k)
-        key[k] = codes_[code][k] - grains.image[oriented.b][k] + grains.image[oriented.a][k];
-      imageKey_.push_back(packImage(key));
+/// Slots in the order of rows: what a chunk's grains share with earlier chunks, rows of the chunk, and their
+/// pairs with later chunks, for within a row partners stand in storage order.
+void PairList::link(Parallel& parallel) {
+  const std::int64_t n = now_.grains;
+  const auto empty = static_cast<std::int32_t>(now_.entries << 1);
+  makeRoom(now_.slots, n * slotCount);
+  filled_.resize(static_cast<std::size_t>(n));
+  const int chunkCount = chunks();
+  std::vector<std::vector<Extra>> extras(chunkCount);
+  std::vector<std::uint32_t> touches(chunkCount); ///< which chunks the crossing rows of a chunk lead to
+  if (chunkCount > 1)
+    parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t c = first; c < last; ++c)
+        for (std::int64_t p = chunkCrossing_[c].begin; p < chunkCrossing_[c].end; ++p) {
+          const std::int64_t j = std::max(now_.pairs[p].a, now_.pairs[p].b);
+          std::int64_t d = c + 1;
+          while (j >= chunkGrains_[d].end)
+            ++d;
+          touches[c] |= 1u << d;
+        }
+    });
+  parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t c = first; c < last; ++c) {
+      const auto [begin, end] = chunkGrains_[c];
+      std::fill(now_.slots.begin() + begin * slotCount, now_.slots.begin() + end * slotCount, empty);
+      std::fill(filled_.begin() + begin, filled_.begin() + end, std::uint8_t{0});
+      const auto enter = [&, slots = now_.slots.data(), filled = filled_.data()](std::int32_t grain,
+                                                                                 std::int64_t entry) {
+        if (filled[grain] < slotCount)
+          slots[static_cast<std::int64_t>(grain) * slotCount + filled[grain]++] =
+              static_cast<std::int32_t>(entry);
+        else
+          extras[c].push_back({grain, static_cast<std::int32_t>(entry)});
+      };
+      const Pair* pairs = now_.pairs.data();
+      for (std::int64_t d = 0; d < c; ++d) {
+        if (!(touches[d] >> c & 1u)) continue;
+        for (std::int64_t p = chunkCrossing_[d].begin; p < chunkCrossing_[d].end; ++p) {
+          const bool second = pairs[p].b > pairs[p].a;
+          const std::int32_t j = second ? pairs[p].b : pairs[p].a;
+          if (j >= begin && j < end) enter(j, p << 1 | (second ? 1 : 0));
+        }
+      }
+      for (std::int64_t p = chunkPairs_[c].begin; p < chunkPairs_[c].end && pairs[p].a < n; ++p) {
+        enter(pairs[p].a, p << 1);
+        enter(pairs[p].b, p << 1 | 1);
+      }
+      for (std::int64_t p = chunkCrossing_[c].begin; p < chunkCrossing_[c].end; ++p) {
+        const bool second = pairs[p].b < pairs[p].a;
+        enter(second ? pairs[p].b : pairs[p].a, p << 1 | (second ? 1 : 0));
+      }
+      std::stable_sort(extras[c].begin(), extras[c].end(),
+                       [](const Extra& s, const Extra& t) { return s.grain < t.grain; });
     }
+  });
+  now_.extras.clear();
+  for (const auto& part : extras)
+    now_.extras.insert(now_.extras.end(), part.begin(), part.end());
+  now_.groupExtras.assign(static_cast<std::size_t>(now_.groups()) + 1, 0);
+  for (const Extra& e : now_.extras)
+    ++now_.groupExtras[e.grain / group + 1];
+  for (std::size_t g = 1; g < now_.groupExtras.size(); ++g)
+    now_.groupExtras[g] += now_.groupExtras[g - 1];
 }
 
-std::array<int, 3> PairList::image(std::size_t p) const {
-  return periodic_ ? codes_[shiftOf_[p]] : std::array<int, 3>{0, 0, 0};
+std::array<int, 3> PairList::image(std::int64_t p) const {
+  return periodic_ ? now_.codes.image[now_.shiftOf[p]] : std::array<int, 3>{0, 0, 0};
 }
 
-void PairList::link(const GrainStore& grains) {
-  const std::size_t n = grains.size();
-  offsets_.assign(n + 1, 0);
-  for (const Pair& p : pairs_) {
-    ++offsets_[p.a + 1];
-    ++offsets_[p.b + 1];
-  }
-  for (std::size_t i = 0; i < n; ++i)
-    offsets_[i + 1] += offsets_[i];
-  entries_.resize(2 * pairs_.size());
-  std::vector<std::int32_t> cursor(offsets_.begin(), offsets_.end() - 1);
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    entries_[cursor[pairs_[p].a]++] = static_cast<std::int32_t>(p << 1);
-    entries_[cursor[pairs_[p].b]++] = static_cast<std::int32_t>(p << 1 | 1);
-  }
-  const auto partner = [&](std::int32_t entry) {
-    return grains.id[entry & 1 ? pairs_[entry >> 1].a : pairs_[entry >> 1].b];
-  };
-  for (std::size_t i = 0; i < n; ++i)
-    std::sort(entries_.begin() + offsets_[i], entries_.begin() + offsets_[i + 1],
-              [&](std::int32_t s, std::int32_t t) {
-                const std::int64_t ps = partner(s), pt = partner(t);
-                if (ps != pt) return ps < pt;
-                const std::int64_t ks = imageKey(s >> 1), kt = imageKey(t >> 1);
-                return ks != kt ? ks < kt : (s & 1) < (t & 1);
-              });
-  partnerIds_.resize(2 * pairs_.size());
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    partnerIds_[2 * p] = grains.id[pairs_[p].a];
-    partnerIds_[2 * p + 1] = grains.id[pairs_[p].b];
-  }
-}
-
-void PairList::carry(const PairList& old, const std::vector<std::int32_t>& oldIndex, const GrainStore& grains,
-                     Parallel& parallel) {
-  if (old.pairs_.empty() || old.offsets_.size() <= 1) return;
-  parallel.forRange(static_cast<std::int64_t>(pairs_.size()), 4096,
-                    [&](std::int64_t first, std::int64_t last) {
-                      for (std::int64_t p = first; p < last; ++p) {
-                        const std::size_t a = oldIndex[pairs_[p].a];
-                        if (a + 1 >= old.offsets_.size()) continue; // the grain is new
-                        const std::int64_t partner = partnerIds_[2 * p + 1];
-                        for (std::int32_t k = old.offsets_[a]; k < old.offsets_[a + 1]; ++k) {
-                          const std::int32_t entry = old.entries_[k];
-                          const std::size_t q = entry >> 1;
-                          if ((entry & 1) || !old.live_[q] || old.partnerIds_[2 * q + 1] != partner) continue;
-                          if (periodic_ && old.imageKey_[q] != imageKey_[p]) continue;
-                          live_[p] = 1;
-                          std::copy_n(old.history_.data() + q * historySize_, historySize_,
-                                      history_.data() + p * historySize_);
-                          break;
-                        }
-                      }
-                    });
+std::int64_t PairList::imageKey(std::int64_t p, const GrainStore& grains) const {
+  if (!periodic_) return 0;
+  const auto [a, b] = now_.pairs[p];
+  const std::array<int, 3> seen = image(p);
+  std::array<std::int64_t, 3> key{};
+  for (int k = 0; k < 3; ++k)
+    key[k] = std::int64_t{seen[k]} - grains.image[b][k] + grains.image[a][k];
+  return packImage(key);
 }
 
 std::size_t PairList::bytes() const {
-  return pairs_.size() *
-             (sizeof(Pair) + (periodic_ ? 1 + sizeof(std::int64_t) : 0) + 1 + 2 * sizeof(std::int64_t) +
-              2 * sizeof(std::int32_t) + sizeof(double) * (historySize_ + outputSize_)) +
-         offsets_.size() * sizeof(std::int32_t);
+  std::size_t total = now_.bytes() + past_.bytes() + output_.capacity() * sizeof(Quad) +
+                      groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() + columns_.bytes() +
+                      (rowLength_.capacity() + wrapped_.capacity()) * sizeof(std::int32_t) +
+                      filled_.capacity();
+  for (const Block& block : blocks_)
+    total += block.rows.bytes();
+  return total;
 }
 
 } // namespace sandglass

@@ -11,6 +11,9 @@
 // The cutting depends on the number of grains alone, never on the number of threads.
 
 #include "sim/base/parallel.h"
+#include "sim/contact/cell_grid.h"
+#include "sim/contact/pair_listing.h"
+#include "sim/contact/pair_search.h"
 #include "sim/grains/grain_store.h"
 #include "sim/scene/scene.h"
 
@@ -23,41 +26,125 @@ namespace sandglass {
 
 class PairList {
 public:
-  static constexpr int lane = 8, group = 32, slotCount = 8;
-  struct Pair { std::int32_t a = 0, b = 0; };
-  struct Range { std::int64_t begin = 0, end = 0; };
-  struct Extra { std::int32_t grain, entry; };
+  /// Pairs that a vector loop takes at once; histories are grouped so.
+  static constexpr int lane = PairListing::lane;
+  /// Grains that are integrated together.
+  static constexpr int group = PairListing::group;
+  /// Contacts per grain that are found without looking further.
+  static constexpr int slotCount = PairListing::slotCount;
+
+  /// Storage indices a and b; a has the smaller id (or is its own image).
+  using Pair = PairListing::Pair;
+  /// A contact of a grain beyond its slots.
+  using Extra = PairListing::Extra;
+  struct Range {
+    std::int64_t begin = 0, end = 0;
+  };
+
+  /// outputQuads: quads (4 doubles) that the particle loop writes per pair.
+  PairList(const Domain& domain, int historySize, int outputQuads, bool keepsLive);
+
+  /// Sets `listed.w` of the grains first .. last - 1, of one group. Called from several threads at once, for
+  /// different groups. The largest value of all grains must stay what it was.
   using Allow = std::function<void(std::int64_t first, std::int64_t last)>;
-  PairList(const Domain& domain, int h, int o, bool live) : d(domain), H(h), O(o), L(live) {}
-  void build(GrainStore& grains, double range, Parallel& parallel, const std::vector<std::uint8_t>& drop = {}, const Allow& allow = {});
-  std::int64_t entries() const { return (std::int64_t)P.size(); }
-  std::int64_t size() const { return real; }
-  const std::vector<Pair>& pairs() const { return P; }
-  bool isPadding(std::int64_t p) const { return P[p].a >= n; }
-  bool periodic() const { return d.periodic[0]||d.periodic[1]||d.periodic[2]; }
-  const std::vector<std::uint8_t>& shiftOf() const { return S; }
-  const std::vector<Quad>& shifts() const { return T; }
-  std::array<int,3> image(std::int64_t p) const { if(!periodic()) return {0,0,0}; int c=S[p]; return {c/9-1,c/3%3-1,c%3-1}; }
-  std::int64_t imageKey(std::int64_t p, const GrainStore& g) const { if(!periodic()) return 0; auto im=image(p); std::int64_t k=0; for(int q=0;q<3;++q) k=k*(1<<21)+(im[q]-g.image[P[p].b][q]+g.image[P[p].a][q]+(1<<20)); return k; }
-  int chunks() const { return 1; }
-  Range crossing() const { return {0,0}; }
-  Range chunkGrains(int) const { return {0,n}; }
-  Range chunkPairs(int) const { return {0,entries()}; }
-  std::int64_t groupEnd(std::int64_t g) const { return E[g]; }
-  const std::int32_t* slots(std::int64_t g) const { return slot.data()+8*g; }
-  const std::vector<Extra>& extras() const { return X; }
-  Range groupExtras(std::int64_t g) const { return {XS[g],XS[g+1]}; }
-  double* history() { return Hs.data(); }
-  double historyOf(std::int64_t p,int k) const { return Hs[(p/8)*8*H+k*8+p%8]; }
-  void setHistory(std::int64_t p,int k,double v) { Hs[(p/8)*8*H+k*8+p%8]=v; }
-  Quad* output() { return out.data(); }
-  std::uint8_t* live() { return L? lv.data():nullptr; }
-  int historySize() const { return H; }
-  int outputQuads() const { return O; }
-  std::vector<double>& historyArray() { return Hs; }
-  std::vector<std::uint8_t>& liveArray() { return lv; }
-  std::size_t bytes() const { return 0; }
-  Domain d; int H,O; bool L; std::int64_t n=0, real=0;
-  std::vector<Pair> P; std::vector<std::uint8_t> S, lv; std::vector<Quad> T, out; std::vector<std::int64_t> E, XS; std::vector<std::int32_t> slot; std::vector<Extra> X; std::vector<double> Hs;
+
+  /// Sorts the grains by cell, wraps them into the periodic box, remembers where they are (listed.x,y,z) and
+  /// lists all pairs with distance below r_a + r_b + range + listed.w of a + listed.w of b, where `listed.w`
+  /// of a grain, set by the caller, is how far it may move before the list is too old. `allow` may set it
+  /// anew once the grains are sorted and grouped. Pairs that were listed before keep their history (and live
+  /// flag), at the same key; since then, grains may have been appended, but not moved in storage. Grains
+  /// whose `drop` flag is set leave the store (an empty `drop` keeps all).
+  void build(GrainStore& grains, double range, Parallel& parallel, const std::vector<std::uint8_t>& drop = {},
+             const Allow& allow = {});
+
+  std::int64_t entries() const { return now_.entries; }         ///< with padding; a multiple of `lane`
+  std::int64_t size() const { return size_; }                   ///< real pairs
+  const std::vector<Pair>& pairs() const { return now_.pairs; } ///< entries() of them
+  bool isPadding(std::int64_t p) const { return now_.pairs[p].a >= now_.grains; } ///< a pair of phantoms
+  bool periodic() const { return periodic_; }
+  /// Vector from the box to the image of b that pair p means: shifts()[shiftOf()[p]]. w is 0. Empty without
+  /// periodic directions; padding: the code of no shift.
+  const std::vector<std::uint8_t>& shiftOf() const { return now_.shiftOf; }
+  const std::vector<Quad>& shifts() const { return now_.codes.shift; }
+  std::array<int, 3> image(std::int64_t p) const;
+  /// Box crossings of b against a, which does not change when grains are wrapped: the third part of the key.
+  std::int64_t imageKey(std::int64_t p, const GrainStore& grains) const;
+
+  // Sections. Chunks are whole groups of grains. Ranges of pairs include their padding: crossing() and the
+  // chunks' pairs follow each other without gaps, up to entries().
+  int chunks() const { return static_cast<int>(chunkGrains_.size()); }
+  Range crossing() const { return crossing_; }               ///< pairs between chunks
+  Range chunkGrains(int c) const { return chunkGrains_[c]; } ///< storage indices
+  Range chunkPairs(int c) const { return chunkPairs_[c]; }
+  /// Where in its chunk's pairs the rows of a group of grains end: a pair index, not padded. The first group
+  /// of a chunk begins at chunkPairs(c).begin. g = index / group.
+  std::int64_t groupEnd(std::int64_t g) const { return groupEnd_[g]; }
+
+  // Per grain: entries are (pair << 1 | 1 when the grain is b), in an order that does not depend on the
+  // cutting into chunks; empty slots point at the zero output behind the last pair: entries() << 1.
+  const std::int32_t* slots(std::int64_t grain) const { return now_.slots.data() + grain * slotCount; }
+  const std::vector<Extra>& extras() const { return now_.extras; } ///< ordered by grain
+  Range groupExtras(std::int64_t g) const {                        ///< into extras()
+    return {now_.groupExtras[g], now_.groupExtras[g + 1]};
+  }
+
+  // Histories: number k of pair p is history()[(p / lane) * lane * historySize + k * lane + p % lane].
+  double* history() { return now_.history.data(); }
+  double historyOf(std::int64_t p, int k) const { return now_.history[placeOf(p, k)]; }
+  void setHistory(std::int64_t p, int k, double value) { now_.history[placeOf(p, k)] = value; }
+  /// Outputs: quad k of pair p is output()[p * outputQuads + k]; one more, all zero, at p = entries(). What
+  /// stands in the others after a build means nothing.
+  Quad* output() { return output_.data(); }
+  std::uint8_t* live() {
+    return keepsLive_ ? now_.live.data() : nullptr;
+  } ///< 1: in range of a law with events; null unless keepsLive
+  int historySize() const { return historySize_; }
+  int outputQuads() const { return outputQuads_; }
+
+  /// For checkpoints: the arrays that cannot be made again from the positions at listing time.
+  std::vector<double>& historyArray() { return now_.history; }
+  std::vector<std::uint8_t>& liveArray() { return now_.live; }
+
+  std::size_t bytes() const;
+
+private:
+  /// Rows that one thread searches and writes at a time, whole groups within a chunk.
+  struct Block {
+    std::int64_t firstGrain, lastGrain, chunk;
+    std::int64_t firstPair = 0, firstCrossing = 0; ///< where its rows go
+    FoundRows rows;
+  };
+
+  std::size_t placeOf(std::int64_t p, int k) const {
+    return static_cast<std::size_t>(p / lane * lane * historySize_ + k * lane + p % lane);
+  }
+  void wrap(GrainStore& grains, Parallel& parallel);
+  void fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow);
+  void cut(std::int64_t grains);
+  void search(Parallel& parallel);
+  void layOut();
+  void fillPadding(std::int64_t from, std::int64_t to);
+  void writeRows(const GrainStore& grains, Parallel& parallel);
+  void link(Parallel& parallel);
+
+  Domain domain_;
+  bool periodic_ = false;
+  int historySize_, outputQuads_;
+  bool keepsLive_;
+  PairListing now_, past_; ///< past_: the listing before, while histories are carried
+  std::int64_t size_ = 0;
+  std::vector<Quad> output_;
+  Range crossing_;
+  std::vector<Range> chunkGrains_, chunkPairs_,
+      chunkCrossing_; ///< the last: crossing rows of a chunk's grains
+  std::vector<std::int64_t> groupEnd_;
+
+  // Of use during a build alone; kept because asking for memory anew costs more than the search.
+  CellGrid grid_;
+  GrainColumns columns_;
+  std::vector<Block> blocks_;
+  std::vector<std::int32_t> rowLength_, wrapped_;
+  std::vector<std::uint8_t> filled_;
 };
+
 } // namespace sandglass

@@ -1,10 +1,14 @@
-// The neighbour list against a brute-force search, including boxes thinner than the cut-off.
+// The neighbour list against a brute-force search, including boxes thinner than the cut-off, and the layout
+// that the particle loop relies on.
 
 #include "sim/base/random.h"
 #include "sim/contact/pair_list.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -14,19 +18,20 @@ namespace {
 
 using Key = std::tuple<std::int64_t, std::int64_t, int, int, int>;
 
-GrainStore randomGrains(int n, const Domain& domain, double smallest, double largest, double allowed) {
+GrainStore randomGrains(int n, const Domain& domain, double smallest, double largest, double allowed,
+                        std::uint64_t seed = 5) {
   GrainStore store;
   store.imaged = domain.periodic[0] || domain.periodic[1] || domain.periodic[2];
   store.resize(n);
   for (int i = 0; i < n; ++i) {
-    RandomStream random(5, RandomPurpose::test, i);
+    RandomStream random(seed, RandomPurpose::test, i);
     Vec3 x;
     for (int k = 0; k < 3; ++k)
       x[k] = random.uniform(domain.lower[k], domain.upper[k]);
     store.place[i] = {x.x(), x.y(), x.z(), random.uniform(smallest, largest)};
     store.motion[i].w = 1.0;
-    store.listed[i].w = allowed * i / n; // unequal allowances
-    store.id[i] = (i * 7919) % n;        // ids in another order than storage
+    store.listed[i].w = allowed * i / n;                     // unequal allowances
+    store.id[i] = (static_cast<std::int64_t>(i) * 7919) % n; // ids in another order than storage
   }
   return store;
 }
@@ -39,55 +44,243 @@ std::set<Key> bruteForce(const GrainStore& g, const Domain& d, double margin) {
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b) {
       if (g.id[a] > g.id[b]) continue;
-      for (int x = -reach(0); x <= reach(0); ++x)
-        for (int y = -reach(1); y <= reach(1); ++y)
+      const Quad p = g.place[a], q = g.place[b];
+      const double r = p.w + q.w + margin + g.listed[a].w + g.listed[b].w;
+      for (int x = -reach(0); x <= reach(0); ++x) {
+        const double dx = p.x - (q.x + x * L[0]);
+        if (std::abs(dx) >= r) continue;
+        for (int y = -reach(1); y <= reach(1); ++y) {
+          const double dy = p.y - (q.y + y * L[1]);
+          if (std::abs(dy) >= r) continue;
           for (int z = -reach(2); z <= reach(2); ++z) {
             if (a == b && std::tuple(x, y, z) <= std::tuple(0, 0, 0)) continue;
-            const Vec3 s(x * L[0], y * L[1], z * L[2]);
-            const double r = g.place[a].w + g.place[b].w + margin + g.listed[a].w + g.listed[b].w;
-            if ((g.place[a].vec() - (g.place[b].vec() + s)).squaredNorm() < r * r)
-              keys.insert({g.id[a], g.id[b], x, y, z});
+            const double dz = p.z - (q.z + z * L[2]);
+            if (dx * dx + dy * dy + dz * dz < r * r) keys.insert({g.id[a], g.id[b], x, y, z});
           }
+        }
+      }
     }
   return keys;
 }
 
-void compare(const Domain& domain, int n, double smallest, double largest, double margin) {
-  GrainStore store = randomGrains(n, domain, smallest, largest, 0.02);
-  PairList list(domain, 0, 3);
-  Parallel parallel(2);
-  list.build(store, margin, parallel);
+std::set<Key> keysOf(const PairList& list, const GrainStore& store) {
   std::set<Key> keys;
-  for (std::size_t p = 0; p < list.size(); ++p) {
+  for (std::int64_t p = 0; p < list.entries(); ++p) {
+    if (list.isPadding(p)) continue;
     const auto [a, b] = list.pairs()[p];
     const auto image = list.image(p);
-    CHECK(keys.insert({store.id[a], store.id[b], image[0], image[1], image[2]}).second); // none twice
+    if (!keys.insert({store.id[a], store.id[b], image[0], image[1], image[2]}).second)
+      FAIL("pair " << p << " is listed twice");
   }
-  CHECK(keys == bruteForce(store, domain, margin));
+  return keys;
+}
+
+/// Everything that the header promises about the arrays.
+void checkLayout(PairList& list, const GrainStore& store) {
+  const std::int64_t n = static_cast<std::int64_t>(store.size()), entries = list.entries();
+  REQUIRE(entries % PairList::lane == 0);
+  REQUIRE(static_cast<std::int64_t>(list.pairs().size()) == entries);
+  REQUIRE(list.shiftOf().size() == (list.periodic() ? list.pairs().size() : 0));
+  int chunks = 1; // the largest power of two up to n / 2048, at most 16
+  while (chunks < 16 && chunks * 2 <= n / 2048)
+    chunks *= 2;
+  REQUIRE(list.chunks() == chunks);
+
+  std::vector<int> chunkOf(n), sectionOf(entries, -1);
+  std::int64_t grain = 0, at = list.crossing().end;
+  REQUIRE(list.crossing().begin == 0);
+  for (int c = 0; c < chunks; ++c) {
+    const auto grains = list.chunkGrains(c), pairs = list.chunkPairs(c);
+    REQUIRE(grains.begin == grain);
+    REQUIRE((grains.begin % PairList::group == 0));
+    REQUIRE((pairs.begin == at && pairs.begin % PairList::lane == 0));
+    grain = grains.end;
+    at = pairs.end;
+    std::fill(chunkOf.begin() + grains.begin, chunkOf.begin() + grains.end, c);
+    std::fill(sectionOf.begin() + pairs.begin, sectionOf.begin() + pairs.end, c);
+  }
+  REQUIRE((grain == n && at == entries));
+
+  bool right = true;
+  std::int64_t real = 0;
+  std::map<std::int64_t, std::vector<std::int32_t>> expected;                  // contacts of a grain, by row
+  std::vector<std::tuple<std::int64_t, std::int64_t, int, std::int64_t>> rows; // (row, partner, image, pair)
+  for (std::int64_t p = 0; p < entries; ++p) {
+    const auto [a, b] = list.pairs()[p];
+    if (list.isPadding(p)) {
+      right = right && a == n && b == n + 1;
+      if (list.periodic()) right = right && list.image(p) == std::array<int, 3>{0, 0, 0};
+      for (int k = 0; k < list.historySize(); ++k)
+        right = right && list.historyOf(p, k) == 0.0;
+      continue;
+    }
+    ++real;
+    right = right && a < n && b < n && store.id[a] <= store.id[b];
+    const std::int64_t row = std::min(a, b), other = std::max(a, b);
+    if (sectionOf[p] < 0)
+      right = right && chunkOf[a] != chunkOf[b];
+    else
+      right = right && chunkOf[a] == sectionOf[p] && chunkOf[b] == sectionOf[p];
+    if (sectionOf[p] >= 0) { // rows end where groupEnd says
+      const std::int64_t g = row / PairList::group;
+      const bool first = g * PairList::group == list.chunkGrains(sectionOf[p]).begin;
+      right = right && p < list.groupEnd(g) &&
+              p >= (first ? list.chunkPairs(sectionOf[p]).begin : list.groupEnd(g - 1));
+    }
+    int image = list.periodic() ? list.shiftOf()[p] : 0;
+    if (a != row) image = static_cast<int>(list.shifts().size()) - 1 - image;
+    rows.push_back({row, other, image, p});
+  }
+  CHECK(right);
+  CHECK(real == list.size());
+  std::sort(rows.begin(), rows.end());
+  for (const auto& [row, other, image, p] : rows) {
+    const auto [a, b] = list.pairs()[p];
+    expected[a].push_back(static_cast<std::int32_t>(p << 1));
+    expected[b].push_back(static_cast<std::int32_t>(p << 1 | 1));
+  }
+  std::vector<std::vector<std::int32_t>> given(n);
+  bool filled = true, ordered = true;
+  for (std::int64_t i = 0; i < n; ++i) {
+    bool open = false;
+    for (int k = 0; k < PairList::slotCount; ++k) {
+      const std::int32_t entry = list.slots(i)[k];
+      if (entry >> 1 == entries) {
+        open = true;
+        filled = filled && entry == entries << 1;
+      } else {
+        filled = filled && !open;
+        given[i].push_back(entry);
+      }
+    }
+  }
+  std::int64_t extra = 0;
+  for (std::int64_t g = 0; g * PairList::group < n; ++g) {
+    ordered = ordered && list.groupExtras(g).begin == extra;
+    extra = list.groupExtras(g).end;
+    for (std::int64_t e = list.groupExtras(g).begin; e < extra; ++e) {
+      const auto [owner, entry] = list.extras()[e];
+      ordered = ordered && owner / PairList::group == g && (e == 0 || list.extras()[e - 1].grain <= owner);
+      filled = filled && given[owner].size() >= PairList::slotCount;
+      given[owner].push_back(entry);
+    }
+  }
+  CHECK(extra == static_cast<std::int64_t>(list.extras().size()));
+  CHECK(filled);
+  CHECK(ordered);
+  bool same = true;
+  for (std::int64_t i = 0; i < n; ++i)
+    same = same && given[i] == (expected.count(i) ? expected[i] : std::vector<std::int32_t>{});
+  CHECK(same);
+  for (int k = 0; k < list.outputQuads(); ++k) {
+    const Quad q = list.output()[entries * list.outputQuads() + k];
+    CHECK((q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0));
+  }
+}
+
+void compare(const Domain& domain, GrainStore store, double margin) {
+  PairList list(domain, 0, 2, false);
+  Parallel parallel(2);
+  list.build(store, margin, parallel);
+  const std::set<Key> found = keysOf(list, store), right = bruteForce(store, domain, margin);
+  CHECK(found.size() == right.size());
+  CHECK((found == right));
+  checkLayout(list, store);
+}
+
+void compare(const Domain& domain, int n, double smallest, double largest, double margin) {
+  compare(domain, randomGrains(n, domain, smallest, largest, 0.02), margin);
 }
 
 } // namespace
 
 TEST_CASE("the list holds every pair once, in an open box") {
   compare({Vec3(0, 0, 0), Vec3(1, 2, 1.5), {false, false, false}}, 400, 0.03, 0.08, 0.02);
+  compare({Vec3(0, 0, 0), Vec3(1, 1, 1), {false, false, false}}, 5000, 0.025, 0.025, 0.002);
 }
 
 TEST_CASE("the list holds every pair once, in periodic boxes wide and thin") {
   compare({Vec3(0, 0, 0), Vec3(1, 2, 1.5), {true, true, true}}, 400, 0.03, 0.08, 0.02);
   compare({Vec3(-1, 0, 0), Vec3(1, 0.25, 1), {true, true, false}}, 300, 0.04, 0.05, 0.03); // 2.5 diameters
   compare({Vec3(0, 0, 0), Vec3(0.3, 0.09, 0.3), {true, true, true}}, 40, 0.02, 0.04,
-          0.05); // thinner than a cut-off
+          0.05);                                                              // thinner than a cut-off
+  for (const double width : {0.09, 0.11, 0.17, 0.21, 0.31, 0.41, 0.51, 0.61}) // 1 to 6 cells across
+    for (const int axis : {0, 1, 2}) {
+      Vec3 upper(1, 1, 1);
+      upper[axis] = width;
+      Domain domain{Vec3(0, 0, 0), upper, {false, false, false}};
+      domain.periodic[axis] = true;
+      compare(domain, 200, 0.03, 0.04, 0.0);
+    }
 }
 
 TEST_CASE("sizes 1:20 in one list") {
   compare({Vec3(0, 0, 0), Vec3(1, 1, 1), {false, true, false}}, 300, 0.005, 0.1, 0.01);
 }
 
+TEST_CASE("sizes 1:50 in one list of several levels") {
+  for (const bool periodic : {false, true}) {
+    const Domain domain{Vec3(0, 0, 0), Vec3(1, 1, 1), {periodic, periodic, periodic}};
+    GrainStore store = randomGrains(4500, domain, 0.005, 0.006, 0.0);
+    for (int i = 0; i < 5; ++i)
+      store.place[i * 900].w = 0.25 - 0.04 * i;
+    for (int i = 0; i < 40; ++i)
+      store.place[i * 100 + 7].w = 0.03 + 0.001 * i;
+    compare(domain, store, 0.001);
+  }
+}
+
+TEST_CASE("no grain, one grain, one cell") {
+  const Domain open{Vec3(0, 0, 0), Vec3(1, 1, 1), {false, false, false}};
+  const Domain periodic{Vec3(0, 0, 0), Vec3(1, 1, 1), {true, true, true}};
+  for (const Domain& domain : {open, periodic})
+    for (const int n : {0, 1, 2, 9})
+      compare(domain, n, 0.1, 0.45, 0.0);
+  compare({Vec3(0, 0, 0), Vec3(0.1, 0.1, 0.1), {false, false, false}}, 60, 0.1, 0.1, 0.0);
+}
+
+TEST_CASE("a periodic box too thin for its images is refused") {
+  const Domain domain{Vec3(0, 0, 0), Vec3(0.05, 0.05, 0.05), {true, true, true}};
+  GrainStore store = randomGrains(3, domain, 0.2, 0.2, 0.0);
+  PairList list(domain, 0, 1, false);
+  Parallel parallel(1);
+  CHECK_THROWS_WITH(list.build(store, 0.0, parallel), Catch::Contains("at most 255 are possible"));
+}
+
 TEST_CASE("grains far apart do not blow up the grid") {
   Domain domain{Vec3(-1e6, -1e6, -1e6), Vec3(1e6, 1e6, 1e6), {false, false, false}};
   GrainStore store = randomGrains(50, domain, 1e-3, 1e-3, 1e-4);
-  PairList list(domain, 0, 3);
+  PairList list(domain, 0, 3, false);
   Parallel parallel(1);
   list.build(store, 1e-4, parallel);
   CHECK(list.size() == 0);
+  CHECK(list.bytes() < 50000);
+}
+
+TEST_CASE(
+    "allowances that are shared within groups of grains are respected, and listing again changes nothing") {
+  const Domain domain{Vec3(0, 0, 0), Vec3(1, 1, 1), {false, true, false}};
+  GrainStore store = randomGrains(3000, domain, 0.004, 0.04, 0.02);
+  PairList list(domain, 0, 1, false);
+  Parallel parallel(3);
+  list.build(store, 0.001, parallel, {}, [&](std::int64_t first, std::int64_t last) {
+    double most = 0.0;
+    for (std::int64_t i = first; i < last; ++i)
+      most = std::max(most, store.listed[i].w);
+    for (std::int64_t i = first; i < last; ++i)
+      store.listed[i].w = most;
+  });
+  CHECK((keysOf(list, store) == bruteForce(store, domain, 0.001)));
+
+  // As a checkpoint does: what is sorted stays as it is.
+  const std::vector<std::int64_t> ids = store.id;
+  PairList again(domain, 0, 1, false);
+  again.build(store, 0.001, parallel);
+  CHECK(store.id == ids);
+  REQUIRE(again.entries() == list.entries());
+  bool same = true;
+  for (std::int64_t p = 0; p < list.entries(); ++p)
+    same = same && list.pairs()[p].a == again.pairs()[p].a && list.pairs()[p].b == again.pairs()[p].b;
+  CHECK(same);
+  CHECK(list.shiftOf() == again.shiftOf());
 }

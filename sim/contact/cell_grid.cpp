@@ -1,0 +1,195 @@
+#include "sim/contact/cell_grid.h"
+
+#include "sim/contact/size_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+namespace sandglass {
+
+namespace {
+
+constexpr std::int64_t grainsPerPiece = 2048;
+/// Rounding must not move a partner out of the cells that are looked through.
+constexpr double safety = 1.0 + 1e-9;
+
+} // namespace
+
+struct CellGrid::Bounds {
+  std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  double least = 1e300, most = 0.0; ///< radii
+  double allowed = 0.0;             ///< largest motion
+
+  void merge(const Bounds& other) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], other.low[k]);
+      high[k] = std::max(high[k], other.high[k]);
+    }
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+    allowed = std::max(allowed, other.allowed);
+  }
+};
+
+void CellGrid::lay(const Domain& domain, const Bounds& bounds) {
+  periodic_ = domain.periodic;
+  std::int64_t cells = 0;
+  for (Level& level : levels_) {
+    const double cutoff = 2.0 * level.reach * safety;
+    double width = cutoff > 0.0 ? cutoff : 1e300;
+    for (;;) { // wide empty spaces get larger cells, so memory follows the grains
+      double total = 1.0;
+      for (int k = 0; k < 3; ++k) {
+        if (domain.periodic[k]) {
+          const double length = domain.upper[k] - domain.lower[k];
+          level.lower[k] = domain.lower[k];
+          level.count[k] = static_cast<int>(std::clamp(std::floor(length / width), 1.0, 1e6));
+          level.width[k] = length / level.count[k];
+        } else {
+          level.lower[k] = level.grains > 0 ? bounds.low[k] : 0.0;
+          const double length = level.grains > 0 ? bounds.high[k] - bounds.low[k] : 0.0;
+          level.count[k] = static_cast<int>(std::clamp(std::floor(length / width) + 1.0, 1.0, 1e6));
+          level.width[k] = std::max(width, length / level.count[k]);
+        }
+        level.perWidth[k] = 1.0 / level.width[k];
+        level.look[k] = !domain.periodic[k] && level.count[k] == 1
+                            ? 0
+                            : static_cast<int>(std::ceil(cutoff / level.width[k]));
+        total *= level.count[k];
+      }
+      if (total <= 4.0 * static_cast<double>(level.grains) + 1000.0) break;
+      width *= 1.26;
+    }
+    level.firstCell = static_cast<std::int32_t>(cells);
+    cells += static_cast<std::int64_t>(level.count[0]) * level.count[1] * level.count[2];
+  }
+  start_.resize(static_cast<std::size_t>(cells) + 1);
+}
+
+void CellGrid::sort(const GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
+                    const std::vector<std::uint8_t>& drop) {
+  const std::int64_t n = static_cast<std::int64_t>(grains.size());
+  const auto stays = [&](std::int64_t i) { return drop.empty() || !drop[i]; };
+
+  // Grains that go must not shape the grid: a list built anew from the positions of those that stay is the
+  // same.
+  std::mutex guard;
+  Bounds bounds;
+  std::int64_t staying = 0;
+  parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
+    Bounds mine;
+    std::int64_t count = 0;
+    for (std::int64_t i = first; i < last; ++i) {
+      if (!stays(i)) continue;
+      ++count;
+      const Quad& q = grains.place[i];
+      mine.merge({{q.x, q.y, q.z}, {q.x, q.y, q.z}, q.w, q.w, grains.listed[i].w});
+    }
+    const std::lock_guard lock(guard);
+    bounds.merge(mine);
+    staying += count;
+  });
+
+  const double margin = bounds.allowed + 0.5 * range, most = bounds.most + margin;
+  const auto reachOf = [&](std::int64_t i) { return grains.place[i].w + margin; };
+  std::array<int, SizeBins::count> levelOf{};
+  if (most <= 1.5 * (bounds.least + margin) || staying == 0) {
+    levels_.assign(1, {staying, most});
+  } else {
+    SizeBins bins;
+    parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
+      SizeBins mine;
+      for (std::int64_t i = first; i < last; ++i) {
+        if (!stays(i)) continue;
+        const double reach = reachOf(i);
+        const int bin = SizeBins::of(reach, most);
+        ++mine.grains[bin];
+        mine.largest[bin] = std::max(mine.largest[bin], reach);
+      }
+      const std::lock_guard lock(guard);
+      bins.merge(mine);
+    });
+    levelOf = chooseLevels(bins);
+    levels_.assign(static_cast<std::size_t>(levelOf[0]) + 1, {});
+    for (int k = 0; k < SizeBins::count; ++k) {
+      Level& level = levels_[levelOf[k]];
+      level.grains += bins.grains[k];
+      level.reach = std::max(level.reach, bins.largest[k]);
+    }
+  }
+  lay(domain, bounds);
+
+  // A stable counting sort in two rounds, so that no thread needs counters for all cells: into buckets of
+  // neighbouring cells, and within each bucket.
+  const std::int64_t cellCount = static_cast<std::int64_t>(start_.size()) - 1;
+  int bits = 0;
+  while (cellCount >> bits > 512)
+    ++bits;
+  const std::int64_t buckets = (cellCount >> bits) + 1;
+  const std::int64_t pieces =
+      std::max<std::int64_t>(1, std::min<std::int64_t>(4 * parallel.threads(), n / grainsPerPiece));
+  const bool oneLevel = levels_.size() == 1;
+  cells_.resize(n);
+  std::vector<std::int32_t> cursor(pieces * buckets, 0);
+  parallel.forRange(pieces, 1, [&](std::int64_t firstPiece, std::int64_t lastPiece) {
+    for (std::int64_t piece = firstPiece; piece < lastPiece; ++piece) {
+      std::int32_t* count = cursor.data() + piece * buckets;
+      for (std::int64_t i = n * piece / pieces; i < n * (piece + 1) / pieces; ++i) {
+        cells_[i] = -1;
+        if (!stays(i)) continue;
+        const Level& level = levels_[oneLevel ? 0 : levelOf[SizeBins::of(reachOf(i), most)]];
+        cells_[i] = level.cellOf(grains.place[i]);
+        ++count[cells_[i] >> bits];
+      }
+    }
+  });
+  std::vector<std::int32_t> bucketStart(buckets + 1, 0);
+  std::int32_t sum = 0;
+  for (std::int64_t b = 0; b < buckets; ++b) {
+    bucketStart[b] = sum;
+    for (std::int64_t piece = 0; piece < pieces; ++piece) {
+      const std::int32_t count = cursor[piece * buckets + b];
+      cursor[piece * buckets + b] = sum;
+      sum += count;
+    }
+  }
+  bucketStart[buckets] = sum;
+  keyed_.resize(staying);
+  order_.resize(staying);
+  parallel.forRange(pieces, 1, [&](std::int64_t firstPiece, std::int64_t lastPiece) {
+    for (std::int64_t piece = firstPiece; piece < lastPiece; ++piece) {
+      std::int32_t* next = cursor.data() + piece * buckets;
+      for (std::int64_t i = n * piece / pieces; i < n * (piece + 1) / pieces; ++i)
+        if (const std::int32_t cell = cells_[i]; cell >= 0)
+          keyed_[next[cell >> bits]++] = {cell, static_cast<std::int32_t>(i)};
+    }
+  });
+  parallel.forRange(buckets, 8, [&](std::int64_t firstBucket, std::int64_t lastBucket) {
+    for (std::int64_t b = firstBucket; b < lastBucket; ++b) {
+      const std::int64_t first = b << bits, last = std::min(cellCount, (b + 1) << bits);
+      const std::int32_t begin = bucketStart[b], end = bucketStart[b + 1];
+      // start_ serves as the counters, and as the cursors shifted by one cell.
+      std::fill(start_.begin() + first, start_.begin() + last, 0);
+      for (std::int32_t k = begin; k < end; ++k)
+        ++start_[keyed_[k].cell];
+      std::int32_t at = begin;
+      for (std::int64_t c = first; c < last; ++c)
+        at += std::exchange(start_[c], at);
+      for (std::int32_t k = begin; k < end; ++k)
+        order_[start_[keyed_[k].cell]++] = keyed_[k].grain;
+      for (std::int64_t c = last - 1; c > first; --c)
+        start_[c] = start_[c - 1];
+      if (first < last) start_[first] = begin;
+    }
+  });
+  start_[cellCount] = static_cast<std::int32_t>(staying);
+}
+
+std::size_t CellGrid::bytes() const {
+  return order_.capacity() * sizeof(order_[0]) + start_.capacity() * sizeof(start_[0]) +
+         keyed_.capacity() * sizeof(keyed_[0]) + cells_.capacity() * sizeof(cells_[0]);
+}
+
+} // namespace sandglass

@@ -1,0 +1,71 @@
+#pragma once
+// Grains sorted by cell, so that the partners of a grain stand in a few contiguous stretches of storage.
+//
+// A cell is as wide as the largest cut-off between two grains that it may hold (chaining mesh: Hockney and
+// Eastwood, Computer Simulation Using Particles, 1988, section 8-4); cells are numbered x slab by x slab, z
+// fastest. Where grains differ much in size there are several levels of cells, fine ones first: a grain lives
+// on the level of its size, and looks for partners there and on all coarser levels, so a large grain among
+// small ones does not widen their cells (Ogarko and Luding, Comput. Phys. Commun. 183, 931, 2012).
+
+#include "sim/base/parallel.h"
+#include "sim/frame/frame.h"
+#include "sim/grains/grain_store.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace sandglass {
+
+class CellGrid {
+public:
+  /// Grains of one range of sizes and their cells: an exact fit along periodic directions, the bounds of all
+  /// grains elsewhere.
+  struct Level {
+    std::int64_t grains = 0;
+    double reach = 0.0;                                 ///< largest reach on the level [m]
+    std::array<double, 3> lower{}, width{}, perWidth{}; ///< [m], [m], [1/m]
+    std::array<int, 3> count{1, 1, 1};
+    std::array<int, 3> look{0, 0, 0}; ///< cells to look beyond one's own for partners of the same level
+    std::int32_t firstCell = 0;
+
+    int along(double x, int axis) const {
+      const int c = static_cast<int>((x - lower[axis]) * perWidth[axis]);
+      return c < 0 ? 0 : c < count[axis] ? c : count[axis] - 1;
+    }
+    std::int32_t cellOf(const Quad& q) const {
+      return firstCell + (along(q.x, 0) * count[1] + along(q.y, 1)) * count[2] + along(q.z, 2);
+    }
+  };
+
+  /// The reach of a grain, here, is its radius + range / 2 + the largest motion that any grain is allowed
+  /// (`listed.w`), so that the cells do not depend on how allowances are shared out among grains.
+  ///
+  /// Lays the cells out and sorts: order()[k] is the grain that comes k-th. Grains of one cell keep their
+  /// order, so what is sorted already stays as it is. Grains whose `drop` flag is set are left out.
+  void sort(const GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
+            const std::vector<std::uint8_t>& drop);
+
+  const std::vector<Level>& levels() const { return levels_; } ///< fine to coarse
+  const std::vector<std::int32_t>& order() const { return order_; }
+  /// First grain of each cell, as a place in order(); one more at the end.
+  const std::vector<std::int32_t>& start() const { return start_; }
+  const std::array<bool, 3>& periodic() const { return periodic_; }
+  double largestReach() const { return levels_.back().reach; }
+  std::size_t bytes() const;
+
+private:
+  struct Bounds;
+  void lay(const Domain& domain, const Bounds& bounds);
+
+  std::array<bool, 3> periodic_{};
+  std::vector<Level> levels_;
+  std::vector<std::int32_t> order_, start_;
+  struct Keyed {
+    std::int32_t cell, grain;
+  };
+  std::vector<Keyed> keyed_;
+  std::vector<std::int32_t> cells_;
+};
+
+} // namespace sandglass

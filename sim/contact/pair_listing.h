@@ -1,0 +1,40 @@
+#pragma once
+// The arrays of a pair list, kept together so that one listing can be carried over into the next.
+
+#include "sim/contact/image_codes.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace sandglass {
+
+struct PairListing {
+  static constexpr int lane = 8, group = 32, slotCount = 8;
+  struct Pair {
+    std::int32_t a = 0, b = 0;
+  };
+  struct Extra {
+    std::int32_t grain, entry;
+  };
+
+  std::int64_t grains = 0;  ///< of this listing; the phantoms are grains `grains` and `grains` + 1
+  std::int64_t entries = 0; ///< pairs with padding
+  std::vector<Pair> pairs;
+  ImageCodes codes;
+  std::vector<std::uint8_t> shiftOf; ///< image code of a pair; empty without periodic directions
+  std::vector<std::int32_t> slots;   ///< slotCount per grain
+  std::vector<Extra> extras;
+  std::vector<std::int32_t> groupExtras; ///< first of extras of each group of grains; one more at the end
+  std::vector<double> history;
+  std::vector<std::uint8_t> live;
+
+  std::int64_t groups() const { return (grains + group - 1) / group; }
+  std::size_t bytes() const {
+    return pairs.capacity() * sizeof(Pair) + shiftOf.capacity() + slots.capacity() * sizeof(std::int32_t) +
+           extras.capacity() * sizeof(Extra) + groupExtras.capacity() * sizeof(std::int32_t) +
+           history.capacity() * sizeof(double) + live.capacity();
+  }
+};
+
+} // namespace sandglass

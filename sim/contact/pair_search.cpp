@@ -1,0 +1,213 @@
+#include "sim/contact/pair_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace sandglass {
+
+namespace {
+
+constexpr double safety = 1e-9; ///< of a cell's width, against rounding
+
+int floorDivide(int a, int b) {
+  return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
+
+struct Window {
+  int low, high; ///< cells, beyond the grid where it is periodic
+};
+
+/// Cells of `there` along one axis in which partners of the grains of cell `at` of `here` may stand.
+Window window(const CellGrid::Level& here, const CellGrid::Level& there, int at, int axis, bool periodic) {
+  Window w;
+  if (&here == &there) {
+    w = {at - here.look[axis], at + here.look[axis]};
+  } else {
+    const double cutoff = here.reach + there.reach + safety * here.width[axis];
+    const double low = here.lower[axis] + at * here.width[axis] - cutoff - there.lower[axis];
+    w.low = static_cast<int>(std::floor(low * there.perWidth[axis] - safety));
+    w.high =
+        static_cast<int>(std::floor((low + here.width[axis] + 2.0 * cutoff) * there.perWidth[axis] + safety));
+  }
+  if (!periodic) w = {std::max(w.low, 0), std::min(w.high, there.count[axis] - 1)};
+  return w;
+}
+
+/// Orders a row by (partner, code).
+void sortRow(std::int32_t* partner, std::uint8_t* code, std::int64_t size) {
+  std::vector<std::int64_t> row(size);
+  for (std::int64_t k = 0; k < size; ++k)
+    row[k] = static_cast<std::int64_t>(partner[k]) << 8 | (code ? code[k] : 0);
+  std::sort(row.begin(), row.end());
+  for (std::int64_t k = 0; k < size; ++k) {
+    partner[k] = static_cast<std::int32_t>(row[k] >> 8);
+    if (code) code[k] = static_cast<std::uint8_t>(row[k] & 255);
+  }
+}
+
+} // namespace
+
+void GrainColumns::resize(std::size_t n) {
+  for (auto* column : {&x, &y, &z, &reach})
+    column->resize(n + CellSearch::readAhead);
+}
+
+/// Cells one above the other on some level, in one image along x and y.
+struct PairSearch::Column {
+  std::int32_t firstCell;
+  int level, imageX, imageY;
+};
+
+struct PairSearch::Scratch {
+  std::vector<Column> columns;
+  std::vector<Stretch> stretches;
+};
+
+PairSearch::PairSearch(const CellGrid& grid, const ImageCodes& codes, const GrainColumns& columns,
+                       KernelWidth width)
+    : grid_(grid), codes_(codes), columns_(columns), search_(cellSearcher(width)),
+      imaged_(codes.image.size() > 1) {
+  for (const CellGrid::Level& level : grid.levels())
+    for (int k = 0; k < 3; ++k)
+      thin_ = thin_ || (grid.periodic()[k] && level.count[k] < 2 * level.look[k] + 3);
+}
+
+void PairSearch::openColumn(std::size_t home, int x, int y, Scratch& scratch) const {
+  scratch.columns.clear();
+  const CellGrid::Level& here = grid_.levels()[home];
+  const auto& periodic = grid_.periodic();
+  const std::int32_t own = here.firstCell + (x * here.count[1] + y) * here.count[2];
+  for (std::size_t l = home; l < grid_.levels().size(); ++l) {
+    const CellGrid::Level& there = grid_.levels()[l];
+    const Window wx = window(here, there, x, 0, periodic[0]), wy = window(here, there, y, 1, periodic[1]);
+    for (int u = wx.low; u <= wx.high; ++u)
+      for (int v = wy.low; v <= wy.high; ++v) {
+        const int ix = periodic[0] ? floorDivide(u, there.count[0]) : 0;
+        const int iy = periodic[1] ? floorDivide(v, there.count[1]) : 0;
+        if (!codes_.holds(ix, iy, 0)) continue;
+        const std::int32_t column =
+            there.firstCell +
+            ((u - ix * there.count[0]) * there.count[1] + v - iy * there.count[1]) * there.count[2];
+        // Each pair once: earlier columns hold earlier grains only.
+        if (column >= own) scratch.columns.push_back({column, static_cast<int>(l), ix, iy});
+      }
+  }
+  if (imaged_)
+    std::sort(scratch.columns.begin(), scratch.columns.end(),
+              [](const Column& s, const Column& t) { return s.firstCell < t.firstCell; });
+}
+
+void PairSearch::openCell(std::size_t home, int z, std::int32_t firstGrain, Scratch& scratch) const {
+  scratch.stretches.clear();
+  const std::int32_t* start = grid_.start().data();
+  const bool periodic = grid_.periodic()[2];
+  int level = -1;
+  Window w{};
+  for (const Column& column : scratch.columns) {
+    const CellGrid::Level& there = grid_.levels()[column.level];
+    if (column.level != level) {
+      level = column.level;
+      w = window(grid_.levels()[home], there, z, 2, periodic);
+    }
+    const std::size_t before = scratch.stretches.size();
+    for (int from = w.low; from <= w.high;) {
+      const int image = periodic ? floorDivide(from, there.count[2]) : 0;
+      const int to = std::min(w.high, (image + 1) * there.count[2] - 1);
+      const std::int32_t begin = start[column.firstCell + from - image * there.count[2]];
+      const std::int32_t end = start[column.firstCell + to - image * there.count[2] + 1];
+      if (end > begin && end > firstGrain && codes_.holds(0, 0, image))
+        scratch.stretches.push_back({begin, end, codes_.of(column.imageX, column.imageY, image)});
+      from = to + 1;
+    }
+    if (scratch.stretches.size() > before + 1)
+      std::sort(scratch.stretches.begin() + static_cast<std::ptrdiff_t>(before), scratch.stretches.end(),
+                [](const Stretch& s, const Stretch& t) { return s.begin < t.begin; });
+  }
+}
+
+/// Calls visit(scratch, first, last) for the grains of each cell among first .. last - 1.
+template <class Visit> void PairSearch::eachCell(std::int64_t first, std::int64_t last, Visit&& visit) const {
+  const auto& start = grid_.start();
+  const std::int64_t cells = static_cast<std::int64_t>(start.size()) - 1;
+  Scratch scratch;
+  std::int64_t cell = std::upper_bound(start.begin(), start.end(), first) - start.begin() - 1;
+  std::size_t home = 0;
+  while (cell < cells && start[cell] < last) {
+    while (home + 1 < grid_.levels().size() && cell >= grid_.levels()[home + 1].firstCell)
+      ++home;
+    const CellGrid::Level& level = grid_.levels()[home];
+    const std::int64_t column = (cell - level.firstCell) / level.count[2];
+    const std::int64_t firstCell = level.firstCell + column * level.count[2];
+    bool open = false;
+    for (; cell < firstCell + level.count[2]; ++cell) {
+      const std::int64_t begin = std::max<std::int64_t>(first, start[cell]);
+      const std::int64_t end = std::min<std::int64_t>(last, start[cell + 1]);
+      if (begin >= end) continue;
+      if (!open)
+        openColumn(home, static_cast<int>(column / level.count[1]), static_cast<int>(column % level.count[1]),
+                   scratch);
+      open = true;
+      openCell(home, static_cast<int>(cell - firstCell), static_cast<std::int32_t>(begin), scratch);
+      visit(scratch, static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
+    }
+  }
+}
+
+void PairSearch::rows(std::int64_t first, std::int64_t last, std::int64_t crossingFrom, std::int32_t* count,
+                      FoundRows& found) const {
+  found.size = found.crossing = 0;
+  CellSearch task{columns_.x.data(),
+                  columns_.y.data(),
+                  columns_.z.data(),
+                  columns_.reach.data(),
+                  codes_.shift.data(),
+                  codes_.center(),
+                  nullptr,
+                  0,
+                  0,
+                  0};
+  eachCell(first, last, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
+    std::int64_t most = 0;
+    std::int32_t furthest = 0;
+    for (const Stretch& s : scratch.stretches) {
+      most += s.end - s.begin;
+      furthest = std::max(furthest, s.end);
+    }
+    const std::size_t room =
+        static_cast<std::size_t>(found.size + most * (end - begin)) + CellSearch::writeAhead;
+    if (found.partner.size() < room) found.partner.resize(room + room / 2);
+    if (imaged_ && found.code.size() < found.partner.size()) found.code.resize(found.partner.size());
+    task.stretches = scratch.stretches.data();
+    task.stretchCount = static_cast<int>(scratch.stretches.size());
+    task.first = begin;
+    task.last = end;
+    std::int32_t* partner = found.partner.data() + found.size;
+    std::uint8_t* code = imaged_ ? found.code.data() + found.size : nullptr;
+    std::int32_t* lengths = count + (begin - first);
+    found.size += search_(task, partner, code, lengths);
+    if (!thin_ && furthest <= crossingFrom) return;
+    for (std::int32_t i = begin; i < end; ++i) {
+      const std::int32_t length = *lengths++;
+      if (thin_) sortRow(partner, code, length);
+      for (std::int32_t k = length; k > 0 && partner[k - 1] >= crossingFrom; --k)
+        ++found.crossing;
+      partner += length;
+      if (code) code += length;
+    }
+  });
+}
+
+std::int64_t PairSearch::distanceTests() const {
+  std::int64_t tests = 0;
+  eachCell(0, static_cast<std::int64_t>(columns_.x.size()) - CellSearch::readAhead,
+           [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
+             for (std::int32_t i = begin; i < end; ++i)
+               for (const Stretch& s : scratch.stretches)
+                 tests += std::max(0, s.end - std::max(s.begin, s.code > codes_.center() ? i : i + 1));
+           });
+  return tests;
+}
+
+} // namespace sandglass

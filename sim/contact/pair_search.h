@@ -1,0 +1,56 @@
+#pragma once
+// All pairs within reach, found cell by cell for a block of rows. The row of a grain holds its partners that
+// come later in storage, ordered by (storage index, image code).
+
+#include "sim/contact/cell_grid.h"
+#include "sim/contact/image_codes.h"
+#include "sim/contact/stretch_search.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sandglass {
+
+/// Positions and reaches (radius + allowed motion + range / 2) in storage order, as columns for vector loops.
+struct GrainColumns {
+  std::vector<double> x, y, z, reach;
+  void resize(std::size_t n);
+  std::size_t bytes() const { return 4 * sizeof(double) * x.capacity(); }
+};
+
+/// What a block of rows holds, row behind row.
+struct FoundRows {
+  std::vector<std::int32_t> partner; ///< longer than `size`
+  std::vector<std::uint8_t> code;    ///< likewise; empty without periodic directions
+  std::int64_t size = 0;
+  std::int64_t crossing = 0; ///< of them with partners at `crossingFrom` or later
+  std::size_t bytes() const { return partner.capacity() * sizeof(std::int32_t) + code.capacity(); }
+};
+
+class PairSearch {
+public:
+  PairSearch(const CellGrid& grid, const ImageCodes& codes, const GrainColumns& columns, KernelWidth width);
+
+  /// Rows of the grains first .. last - 1; their lengths go to `count` (one per grain).
+  void rows(std::int64_t first, std::int64_t last, std::int64_t crossingFrom, std::int32_t* count,
+            FoundRows& found) const;
+
+  /// How many pairs of grains the plain search measures.
+  std::int64_t distanceTests() const;
+
+private:
+  struct Column;
+  struct Scratch;
+  void openColumn(std::size_t home, int x, int y, Scratch& scratch) const;
+  void openCell(std::size_t home, int z, std::int32_t firstGrain, Scratch& scratch) const;
+  template <class Visit> void eachCell(std::int64_t first, std::int64_t last, Visit&& visit) const;
+
+  const CellGrid& grid_;
+  const ImageCodes& codes_;
+  const GrainColumns& columns_;
+  CellSearcher search_;
+  bool imaged_;
+  bool thin_ = false; ///< a cell may meet the same grains in several images
+};
+
+} // namespace sandglass
