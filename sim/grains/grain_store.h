@@ -35,6 +35,7 @@ private:
 class GrainStore {
 public:
   GrainStore() = default;
+  GrainStore(GrainStore&&) = default; // records do not move, so columns stay
   GrainStore(const GrainStore&) = delete;
   GrainStore& operator=(const GrainStore&) = delete;
 
