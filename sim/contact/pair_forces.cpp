@@ -11,7 +11,7 @@ void PairForces::fill(const GrainStore& grains, PairList& list, const std::int32
   b.size = count;
   b.dt = dt;
   b.oneType = laws_.materials() == 1;
-  const bool turning = laws_.turning(), periodic = list.periodic();
+  const bool turning = laws_.turning(), periodic = list.periodic(), fullArm = laws_.fullRadiusArm();
   // Gather: scalar loads of whole records. Positions go to n for the time being.
   alignas(64) double dvx[ContactBlock::capacity], dvy[ContactBlock::capacity], dvz[ContactBlock::capacity];
   alignas(64) double sx[ContactBlock::capacity], sy[ContactBlock::capacity], sz[ContactBlock::capacity];
@@ -63,6 +63,7 @@ void PairForces::fill(const GrainStore& grains, PairList& list, const std::int32
     b.vtz[c] = dvz[c] - vn * b.nz[c];
     dvx[c] = d / sum; // contact arm over radius: the arms add up to the distance, so angular momentum is kept
   }
+  if (fullArm) std::fill_n(dvx, count, 1.0);
   if (turning)
     for (int c = 0; c < count; ++c) { // slip: minus (arm_a w_a + arm_b w_b) x n
       const double wx = sx[c] * dvx[c], wy = sy[c] * dvx[c], wz = sz[c] * dvx[c];
@@ -105,6 +106,7 @@ void PairForces::flush(const GrainStore& grains, PairList& list, const std::int3
     }
 
   const int stride = list.outputSize();
+  const bool fullArm = laws_.fullRadiusArm();
   for (int c = 0; c < count; ++c) {
     const std::size_t p = index[c];
     double* h = list.history(p);
@@ -118,7 +120,7 @@ void PairForces::flush(const GrainStore& grains, PairList& list, const std::int3
     out[2] = fn * b.nz[c] + b.ftz[c];
     if (stride < 6) continue;
     // Torque on either grain is -arm (n x f_t); divided by the own radius it is the same for both.
-    const double sum = b.radiusA[c] + b.radiusB[c], arm = (sum - b.overlap[c]) / sum;
+    const double sum = b.radiusA[c] + b.radiusB[c], arm = fullArm ? 1.0 : (sum - b.overlap[c]) / sum;
     out[3] = -arm * (b.ny[c] * b.ftz[c] - b.nz[c] * b.fty[c]);
     out[4] = -arm * (b.nz[c] * b.ftx[c] - b.nx[c] * b.ftz[c]);
     out[5] = -arm * (b.nx[c] * b.fty[c] - b.ny[c] * b.ftx[c]);

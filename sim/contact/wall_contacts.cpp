@@ -118,7 +118,7 @@ void WallContacts::fillOne(const GrainStore& grains, const SolverWall& wall, std
   Vec3 slip = velocity - vn * n;
   if (laws_.turning()) {
     const Vec3 spin = grains.spin[i].vec();
-    slip -= touch.distance * spin.cross(n);
+    slip -= (laws_.fullRadiusArm() ? x.w : touch.distance) * spin.cross(n);
     b.wx[c] = spin.x();
     b.wy[c] = spin.y();
     b.wz[c] = spin.z();
@@ -177,7 +177,8 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
             matchHistories(k, now, histories.data());
             for (int c = 0; c < count; ++c) {
               owner[block.size] = static_cast<std::int32_t>(k);
-              distance[block.size] = now.at[c].distance;
+              distance[block.size] =
+                  laws_.fullRadiusArm() ? grains.place[candidates_[k].grain].w : now.at[c].distance;
               fillOne(grains, walls[candidates_[k].wall], candidates_[k].grain, now.at[c],
                       histories.data() + c * size, block, block.size);
               ++block.size;

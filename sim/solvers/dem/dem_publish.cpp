@@ -229,6 +229,7 @@ void DemSolver::load(const State& s) {
   get(s, "species", grains_.species);
   get(s, "material", grains_.material);
   get(s, "image", grains_.image);
+  checkPromisedSizes();
   for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
     get(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
 

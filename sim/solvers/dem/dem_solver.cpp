@@ -107,6 +107,12 @@ void DemSolver::add(const std::vector<GrainSeed>& seeds) {
     smallestRadius_ = std::min(smallestRadius_, s.radius);
   }
   stale_ = stale_ || !seeds.empty();
+  checkPromisedSizes();
+}
+
+void DemSolver::checkPromisedSizes() {
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    if (!laws_.asPromised(grains_.material[i], grains_.motion[i].w)) return laws_.allowAnySize(scene_);
 }
 
 void DemSolver::removeWall(const std::string& name) {

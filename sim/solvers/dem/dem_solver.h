@@ -57,6 +57,7 @@ public:
   double bytesPerGrain() const;
 
 private:
+  void checkPromisedSizes(); ///< laws may count on one grain mass a material until a grain has another
   void rebuild(const std::vector<std::uint8_t>& drop = {});
   void prepare(); ///< fresh list and forces after grains or walls have changed
   void stepOnce();
