@@ -256,8 +256,9 @@ void checkStages(const Scene& scene, FaultList& faults) {
                      fmt::format("but the wall '{}' is removed already; leave it out here", wall));
     }
     if (faults.has(path)) continue;
-    const bool needsOutlet = stage.untilEmpty || stage.massDischarged || stage.quietTime;
-    if (!stage.duration && !stage.settledKineticEnergy && !needsOutlet)
+    const bool needsOutlet =
+        stage.untilEmpty || stage.massDischarged || stage.quietTime || stage.recirculations;
+    if (!stage.duration && !stage.settledKineticEnergy && !stage.settledSpeed && !needsOutlet)
       faults.about(path, "never ends; add an end condition, such as until = { duration = \"1 s\" }");
     if (needsOutlet && scene.outlets.empty() && !stage.duration && !faults.has("outlet"))
       faults.about(path + ".until",

@@ -149,6 +149,11 @@ private:
     OutletSpec& outlet = scene_.outlets.emplace_back();
     TableReader in(table, path, faults_);
     readKeys(in, outletKeys(), outlet);
+    if (const ValueTable* recycle = in.subtable("recycle")) {
+      TableReader recycleIn(*recycle, path + ".recycle", faults_);
+      readKeys(recycleIn, recycleKeys(), outlet.recycle.emplace());
+      recycleIn.reportUnknown();
+    }
     in.reportUnknown();
   }
 

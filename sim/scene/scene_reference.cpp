@@ -109,7 +109,11 @@ std::string sceneReference() {
   text += "## `[[species]]`: grains of one sort\n\n" + table(speciesKeys()) +
           "and `size = { distribution = \"…\", … }`:\n\n" + kinds(sizeKinds(), "distribution");
   text += "## `[[wall]]`\n\n" + table(wallKeys()) + kinds(wallKinds(), "kind");
-  text += "## `[[outlet]]`: a plane beyond which grains leave the run\n\n" + table(outletKeys());
+  text +=
+      "## `[[outlet]]`: a plane beyond which grains leave the run\n\n" + table(outletKeys()) +
+      "and, if wanted, `recycle = { … }`: grains that pass are put back at a random place of a box, as low "
+      "as nothing lies\nabove it, and wait until there is one. Each keeps its id and counts its lives.\n\n" +
+      table(recycleKeys());
   text += "## `[[fill]]`: where grains come from\n\nGrains are named by `species`, or by `mixture = [{ "
           "species = \"…\", fraction "
           "= 0.3 }, …]`.\n\n" +

@@ -147,8 +147,11 @@ public:
       Lines all = lines(wallKeys(), store(w));
       emit("[[wall]]", append(all, lines("kind", wallKinds(), w.shape)));
     }
-    for (const auto& o : scene_.outlets)
-      emit("[[outlet]]", lines(outletKeys(), store(o)));
+    for (const auto& o : scene_.outlets) {
+      Lines all = lines(outletKeys(), store(o));
+      if (o.recycle) all.push_back("recycle = " + inlineTable(lines(recycleKeys(), store(*o.recycle))));
+      emit("[[outlet]]", all);
+    }
     for (const auto& f : scene_.fills)
       emit("[[fill]]", fill(f));
     for (const auto& s : scene_.stages) {
