@@ -54,7 +54,8 @@ void printParts(const Scene& scene) {
     fmt::print("  contact    {} on {}: {} normal, {} tangential, {} rolling\n", c.first, c.second,
                c.normal.kind, c.tangential.kind, c.rolling.kind);
   for (const auto& w : scene.walls)
-    fmt::print("  wall       {}: {} of {}\n", w.name, w.shape.kind, w.material);
+    fmt::print("  wall       {}: {} of {}{}\n", w.name, w.shape.kind, w.material,
+               w.motion.kind.empty() ? "" : ", moves: " + w.motion.kind);
   for (const auto& o : scene.outlets)
     fmt::print("  outlet     {}\n", o.name);
   for (const auto& f : scene.fills)

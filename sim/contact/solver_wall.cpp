@@ -23,7 +23,8 @@ Vec3 middle(const WallShape& shape) {
   const Eigen::AlignedBox3d box = shape.bounds();
   Vec3 at = Vec3::Zero();
   for (int k = 0; k < 3; ++k)
-    if (std::isfinite(box.min()[k]) && std::isfinite(box.max()[k])) at[k] = 0.5 * (box.min()[k] + box.max()[k]);
+    if (std::isfinite(box.min()[k]) && std::isfinite(box.max()[k]))
+      at[k] = 0.5 * (box.min()[k] + box.max()[k]);
   return at;
 }
 
@@ -51,7 +52,8 @@ std::vector<SolverWall> makeSolverWalls(const Scene& scene) {
       if (kind.name == spec.shape.kind) wall.shape = kind.make(spec.shape.parameters);
     if (!wall.shape) throw InputError(fmt::format("there is no wall kind '{}'", spec.shape.kind));
     wall.motion = makeMotion(spec.motion.kind, spec.motion.parameters);
-    if (!wall.motion || !wall.motion->ownReference(wall.restReference)) wall.restReference = middle(*wall.shape);
+    if (!wall.motion || !wall.motion->ownReference(wall.restReference))
+      wall.restReference = middle(*wall.shape);
     wall.velocity.reference = wall.contactVelocity.reference = wall.restReference;
     wall.counted = std::any_of(scene.probes.begin(), scene.probes.end(), [&](const ProbeSpec& probe) {
       return probe.what.kind == "wall_force" && probe.what.parameters.text("wall") == spec.name;
@@ -72,10 +74,15 @@ void placeWalls(std::vector<SolverWall>& walls, double time, double dt) {
       if (!motion.running(when, wall.marks)) v.linear = v.spin = Vec3::Zero();
       return v;
     };
-    wall.pose = motion.pose(motion.elapsed(time, wall.marks));
+    wall.time = time;
+    wall.pose = poseAt(wall, time);
     wall.velocity = velocityAt(time);
     wall.contactVelocity = dt > 0.0 ? velocityAt(time - 0.5 * dt) : wall.velocity;
   }
+}
+
+WallPose poseAt(const SolverWall& wall, double time) {
+  return wall.motion ? wall.motion->pose(wall.motion->elapsed(time, wall.marks)) : wall.pose;
 }
 
 void markStage(std::vector<SolverWall>& walls, const std::string& stage, double time) {
@@ -86,21 +93,20 @@ void markStage(std::vector<SolverWall>& walls, const std::string& stage, double 
   }
 }
 
-void allowTravel(std::vector<SolverWall>& walls, double time, double dt, double skin, double meanDiameter,
-                 double radius) {
+void allowTravel(std::vector<SolverWall>& walls, double dt, double skin, double meanDiameter, double radius) {
   for (SolverWall& wall : walls) {
     if (!wall.motion) continue;
-    const double speed = wall.motion->running(time, wall.marks) ? wall.motion->topSpeed(radius) : 0.0;
+    const double speed = wall.motion->running(wall.time, wall.marks) ? wall.motion->topSpeed(radius) : 0.0;
     wall.allowance = 0.5 * skin + std::min(stepsOfTravel * dt * speed, mostTravel * meanDiameter);
-    wall.listedTime = time;
+    wall.listedTime = wall.time;
   }
 }
 
 bool wallsTravelledTooFar(const std::vector<SolverWall>& walls, double radius) {
   for (const SolverWall& wall : walls) {
     if (!wall.motion || !wall.active) continue;
-    const WallPose then = wall.motion->pose(wall.motion->elapsed(wall.listedTime, wall.marks));
-    if (travel(wall.pose, then, wall.restReference, radius) > wall.allowance) return true;
+    if (travel(wall.pose, poseAt(wall, wall.listedTime), wall.restReference, radius) > wall.allowance)
+      return true;
   }
   return false;
 }

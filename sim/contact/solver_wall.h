@@ -16,9 +16,9 @@ namespace sandglass {
 
 /// Sums over a run. Of walls that move, and of those that a probe looks at (`counted`); else 0.
 struct WallTally {
-  double work = 0;           ///< [J] done by the moving wall on the grains
-  double power = 0;          ///< [W] of it now
-  double wearWork = 0;       ///< [J] of the tangential forces along the slip; counted walls only
+  double work = 0;             ///< [J] done by the moving wall on the grains
+  double power = 0;            ///< [W] of it now
+  double wearWork = 0;         ///< [J] of the tangential forces along the slip; counted walls only
   std::int64_t collisions = 0; ///< contacts begun; counted walls only
 };
 
@@ -32,8 +32,9 @@ struct SolverWall {
   std::shared_ptr<const WallMotion> motion; ///< null: never moves
   Vec3 restReference = Vec3::Zero();        ///< point of reference in the wall's frame [m]
   MotionMarks marks;
-  WallPose pose;                ///< at the time of the forces
-  WallVelocity velocity;        ///< at that time
+  double time = 0; ///< [s] of pose and velocity: that of the forces
+  WallPose pose;
+  WallVelocity velocity;
   WallVelocity contactVelocity; ///< at the time of the grains' velocities, half a step before, for the laws
   double allowance = 0;         ///< [m] that its surface may move before grains near it are listed anew
   double listedTime = 0;        ///< [s] when they were
@@ -58,15 +59,16 @@ std::vector<SolverWall> makeSolverWalls(const Scene& scene);
 
 /// To the time of the forces; grains' velocities are those of `dt` / 2 before.
 void placeWalls(std::vector<SolverWall>& walls, double time, double dt);
+/// Where the wall was at another time.
+WallPose poseAt(const SolverWall& wall, double time);
 
 /// A stage begins now: clocks that wait for it start or stop.
 void markStage(std::vector<SolverWall>& walls, const std::string& stage, double time);
 
-/// Grains near walls are being listed at `time`: each moving wall may go on by its allowance before that must
+/// Grains near walls are being listed: each moving wall may go on by its allowance before that must
 /// be done again. Half a skin at least, and enough for some steps of its motion; no grain is further than
 /// `radius` from any wall's reference.
-void allowTravel(std::vector<SolverWall>& walls, double time, double dt, double skin, double meanDiameter,
-                 double radius);
+void allowTravel(std::vector<SolverWall>& walls, double dt, double skin, double meanDiameter, double radius);
 
 /// Whether some wall has moved by more than its allowance since.
 bool wallsTravelledTooFar(const std::vector<SolverWall>& walls, double radius);

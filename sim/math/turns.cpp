@@ -6,8 +6,8 @@
 namespace sandglass {
 
 SineCosine sineCosineOfTurns(double turns) {
-  turns -= std::floor(turns);                     // exact: [0, 1]
-  const double quarter = std::floor(4.0 * turns + 0.5); // nearest multiple of a quarter turn
+  turns -= std::floor(turns);                                         // exact: [0, 1]
+  const double quarter = std::floor(4.0 * turns + 0.5);               // nearest multiple of a quarter turn
   const double x = 2.0 * std::numbers::pi * (turns - 0.25 * quarter); // |x| <= pi/4
   const double y = x * x;
   // Taylor series by Horner's rule; the first term left out is below 1e-17 of the sum at pi/4.

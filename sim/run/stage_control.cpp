@@ -28,6 +28,7 @@ void StageControl::begin() {
   for (const auto& wall : stage.removeWalls)
     solver_.removeWall(wall);
   solver_.setDrag(stage.drag.value_or(0));
+  solver_.beginStage(stage.name);
   const double before = solver_.energies().total();
   const auto grains = placeGrains(scene_, stage.name, solver_.nextId(), solver_.present(), log_);
   if (!grains.empty()) {

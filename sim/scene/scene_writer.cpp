@@ -7,6 +7,7 @@
 #include "sim/scene/probe_registry.h"
 #include "sim/scene/scene_sections.h"
 #include "sim/scene/units.h"
+#include "sim/walls/wall_motion.h"
 #include "sim/walls/wall_registry.h"
 
 #include <fmt/format.h>
@@ -145,7 +146,10 @@ public:
     }
     for (const auto& w : scene_.walls) {
       Lines all = lines(wallKeys(), store(w));
-      emit("[[wall]]", append(all, lines("kind", wallKinds(), w.shape)));
+      append(all, lines("kind", wallKinds(), w.shape));
+      if (!w.motion.kind.empty())
+        all.push_back("motion = " + inlineTable(lines("kind", motionKinds(), w.motion)));
+      emit("[[wall]]", all);
     }
     for (const auto& o : scene_.outlets) {
       Lines all = lines(outletKeys(), store(o));

@@ -134,14 +134,14 @@ MotionKind kind(const char* name, const char* description, std::vector<Parameter
                         .description = "the wall stands still before this time on its clock",
                         .fallback = 0.0,
                         .minimum = 0});
-  parameters.push_back({.name = "duration",
-                        .type = number,
-                        .unit = "s",
-                        .description = durationDue ? "that the way takes"
-                                                   : "the wall stands still after moving this long",
-                        .optional = !durationDue,
-                        .minimum = 0,
-                        .openMinimum = true});
+  parameters.push_back(
+      {.name = "duration",
+       .type = number,
+       .unit = "s",
+       .description = durationDue ? "that the way takes" : "the wall stands still after moving this long",
+       .optional = !durationDue,
+       .minimum = 0,
+       .openMinimum = true});
   parameters.push_back({.name = "until_stage",
                         .type = text,
                         .unit = "1",
@@ -167,8 +167,7 @@ bool WallMotion::running(double time, const MotionMarks& marks) const {
 
 const std::vector<MotionKind>& motionKinds() {
   static const std::vector<MotionKind> kinds{
-      kind("translate", "moves straight on",
-           {vector("velocity", "m/s", "constant")},
+      kind("translate", "moves straight on", {vector("velocity", "m/s", "constant")},
            [](const Parameters& p) {
              return std::make_shared<Translation>(clockOf(p), p.vector("velocity"));
            }),
@@ -201,9 +200,10 @@ const std::vector<MotionKind>& motionKinds() {
              return std::make_shared<Oscillation>(clockOf(p), p.vector("amplitude"), p.number("frequency"),
                                                   p.number("phase"));
            }),
-      kind("slide", "a gate: slides to another place, smoothly, and stays there",
-           {vector("by", "m", "from where the scene puts it to where it ends")},
-           [](const Parameters& p) { return std::make_shared<Slide>(clockOf(p), p.vector("by")); }, true),
+      kind(
+          "slide", "a gate: slides to another place, smoothly, and stays there",
+          {vector("by", "m", "from where the scene puts it to where it ends")},
+          [](const Parameters& p) { return std::make_shared<Slide>(clockOf(p), p.vector("by")); }, true),
   };
   return kinds;
 }

@@ -13,11 +13,11 @@
 
 namespace sandglass {
 
-/// When a wall's clock runs. It shows 0 until its stage has begun and `start` has passed, and stands still for
-/// good after `duration` or once `untilStage` has begun.
+/// When a wall's clock runs. It shows 0 until its stage has begun and `start` has passed, and stands still
+/// for good after `duration` or once `untilStage` has begun.
 struct MotionClock {
-  std::string stage, untilStage; ///< empty: the run's beginning, and never
-  double start = 0;              ///< [s]
+  std::string stage, untilStage;                             ///< empty: the run's beginning, and never
+  double start = 0;                                          ///< [s]
   double duration = std::numeric_limits<double>::infinity(); ///< [s]
 };
 

@@ -147,14 +147,18 @@ double DemSolver::greatestSpeed() const {
 std::vector<FrameWall> DemSolver::walls() const {
   std::vector<FrameWall> all;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
-    FrameWall wall;
-    wall.name = walls_[w].name;
-    wall.shape = walls_[w].shape;
-    wall.active = walls_[w].active;
-    if (!stale_) wallContacts_.total(grains_, static_cast<int>(w), wall.force, wall.torque);
-    all.push_back(std::move(wall));
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    if (!stale_) wallContacts_.total(grains_, static_cast<int>(w), force, torque);
+    all.push_back(frameWall(walls_[w], force, torque));
   }
   return all;
+}
+
+double DemSolver::wallWork() const {
+  double sum = 0.0;
+  for (const SolverWall& w : walls_)
+    sum += w.tally.work;
+  return sum;
 }
 
 namespace {
@@ -173,6 +177,13 @@ template <class T> void get(const Solver::State& state, const std::string& name,
   values.resize(it->second.size() / sizeof(T));
   if (!values.empty()) std::memcpy(values.data(), it->second.data(), it->second.size());
 }
+
+struct WallState {
+  std::int64_t active;
+  MotionMarks marks;
+  double allowance, listedTime;
+  WallTally tally;
+};
 
 struct Counters {
   std::int64_t step, nextId;
@@ -201,10 +212,10 @@ Solver::State DemSolver::save() {
   put(s, "walls.history", wallContacts_.historyArray());
   put(s, "walls.feature", wallContacts_.featureArray());
   put(s, "walls.result", wallContacts_.resultArray());
-  std::vector<std::uint8_t> active;
+  std::vector<WallState> walls;
   for (const SolverWall& w : walls_)
-    active.push_back(w.active);
-  put(s, "walls.active", active);
+    walls.push_back({w.active, w.marks, w.allowance, w.listedTime, w.tally});
+  put(s, "walls.state", walls);
   put(s, "lives", lives_.lives());
   put(s, "entries", lives_.entries());
   put(s, "counters", std::vector<Counters>{{step_, nextId_, flow_}});
@@ -212,13 +223,20 @@ Solver::State DemSolver::save() {
 }
 
 void DemSolver::load(const State& s) {
-  std::vector<std::uint8_t> active;
-  get(s, "walls.active", active);
-  if (active.size() != walls_.size())
+  std::vector<WallState> walls;
+  get(s, "walls.state", walls);
+  if (walls.size() != walls_.size())
     throw InputError(fmt::format("the checkpoint has {} walls and the scene {}; it belongs to another scene",
-                                 active.size(), walls_.size()));
-  for (std::size_t w = 0; w < walls_.size(); ++w)
-    walls_[w].active = active[w] != 0;
+                                 walls.size(), walls_.size()));
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    SolverWall& wall = walls_[w];
+    wall.active = walls[w].active != 0;
+    wall.marks = walls[w].marks;
+    wall.allowance = walls[w].allowance;
+    wall.listedTime = walls[w].listedTime;
+    wall.tally = walls[w].tally;
+    wall.pose = poseAt(wall, wall.listedTime); // until the list is made
+  }
   get(s, "place", grains_.place);
   get(s, "motion", grains_.motion);
   get(s, "force", grains_.force);
@@ -263,6 +281,7 @@ void DemSolver::load(const State& s) {
   nextId_ = counters.at(0).nextId;
   flow_ = counters.at(0).flow;
   stale_ = false;
+  placeWalls(walls_, time(), 0.0);
   for (const Quad& q : grains_.place)
     smallestRadius_ = std::min(smallestRadius_, q.w);
 }

@@ -73,13 +73,14 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
   grains_.imaged = list_.periodic();
   grains_.quantityNames = laws_.quantityNames();
   grains_.quantities.resize(grains_.quantityNames.size());
-  for (const WallSpec& w : scene.walls) {
-    SolverWall wall{w.name, nullptr, materialIndex(scene, w.material), true};
-    for (const WallKind& kind : wallKinds())
-      if (kind.name == w.shape.kind) wall.shape = kind.make(w.shape.parameters);
-    if (!wall.shape) throw InputError(fmt::format("there is no wall kind '{}'", w.shape.kind));
-    walls_.push_back(std::move(wall));
-  }
+  walls_ = makeSolverWalls(scene);
+  wallRadius_ = farthestReach(walls_, scene.domain) + meanDiameter_ + skin_;
+  if (const double fastest = fastestWall(scene); fastest * dt_ > 0.25 * smallestRadius_)
+    throw InputError(
+        fmt::format("a wall moves at up to {:.3g} m/s, {:.3g} m in a step of {:.3g} s, more than a quarter "
+                    "of the smallest "
+                    "radius ({:.3g} m), and could jump over a grain; slow it down or lower time_step",
+                    fastest, fastest * dt_, dt_, smallestRadius_));
 }
 
 void DemSolver::add(const std::vector<GrainSeed>& seeds) {
@@ -125,6 +126,11 @@ void DemSolver::removeWall(const std::string& name) {
   throw InputError(fmt::format("there is no wall '{}' to remove", name));
 }
 
+void DemSolver::beginStage(const std::string& name) {
+  markStage(walls_, name, time());
+  placeWalls(walls_, time(), 0.0);
+}
+
 void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
   // A fast grain may go further before the list is too old: a stream that falls beside a bed at rest would
   // otherwise have the whole bed listed anew every few steps.
@@ -132,6 +138,7 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
   for (std::size_t i = 0; i < grains_.size(); ++i)
     grains_.listed[i].w = 0.5 * skin_ + std::min(look * grains_.motion[i].vec().norm(), most);
   list_.build(grains_, laws_.range(), parallel_, drop);
+  allowTravel(walls_, dt_, skin_, meanDiameter_, wallRadius_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
   ++rebuilds_;
 }
@@ -147,6 +154,7 @@ void DemSolver::advance(std::int64_t steps) {
   prepare();
   for (std::int64_t k = 0; k < steps; ++k)
     stepOnce();
+  placeWalls(walls_, time(), 0.0); // velocities of now, for frames
 }
 
 void DemSolver::damp() {
@@ -166,7 +174,9 @@ void DemSolver::damp() {
 }
 
 void DemSolver::stepOnce() {
-  if (drift()) {
+  const bool old = drift();
+  placeWalls(walls_, static_cast<double>(step_ + 1) * dt_, dt_);
+  if (old || wallsTravelledTooFar(walls_, wallRadius_)) {
     checkEscapes();
     rebuild();
   }
@@ -213,6 +223,7 @@ void DemSolver::forces(double dt) {
   DeepestOverlap deepest;
   pairForces_.step(grains_, list_, dt, parallel_, events, deepest);
   wallContacts_.step(grains_, walls_, dt, parallel_, deepest);
+  wallContacts_.tally(grains_, walls_, dt);
   if (!events.empty()) applyEvents(events);
   const Vec3 g = scene_.gravity;
   parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,

@@ -26,6 +26,7 @@ public:
   void add(const std::vector<GrainSeed>& grains) override;
   void removeWall(const std::string& name) override;
   void setDrag(double rate) override { drag_ = rate; }
+  void beginStage(const std::string& name) override;
   void advance(std::int64_t steps) override;
 
   double time() const override { return static_cast<double>(step_) * dt_; }
@@ -42,6 +43,7 @@ public:
   const Flow& flow() const override { return flow_; }
   std::vector<GrainSeed> present() const override;
   std::vector<FrameWall> walls() const override;
+  double wallWork() const override;
 
   State save() override;
   void load(const State& state) override;
@@ -82,6 +84,7 @@ private:
   PairForces pairForces_;
   WallContacts wallContacts_;
   std::vector<SolverWall> walls_;
+  double wallRadius_ = 0; ///< [m] no grain is further from a moving wall's reference
   double dt_ = 0, skin_ = 0, meanDiameter_ = 0, smallestRadius_ = 0;
   std::int64_t step_ = 0, nextId_ = 0, rebuilds_ = 0;
   bool stale_ = true;

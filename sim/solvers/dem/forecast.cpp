@@ -28,6 +28,7 @@ Trial tryOut(const Scene& scene) {
   const double d = sizeRange(scene, species).meanDiameter;
   const double pitch = 0.99 * d;
   block.walls.clear();
+  block.probes.clear();
   block.outlets.clear();
   block.gravity = Vec3::Zero();
   block.output = {};
@@ -80,6 +81,7 @@ Forecast forecast(const Scene& scene) {
   tell(laws.range() > 0.0, "forces across a gap", fmt::format("lists reach {:.3g} m further", laws.range()));
   tell(periodic, "periodic directions", "12 bytes a grain, 9 bytes a pair");
   tell(!scene.walls.empty(), "walls", "paid by the grains that are near one");
+  tell(fastestWall(scene) > 0.0, "moving walls", "grains near them are listed a little further out");
   tell(!scene.outlets.empty(), "outlets", "one look at each grain every 50 steps");
   const auto anyOutlet = [&](auto&& does) {
     return std::any_of(scene.outlets.begin(), scene.outlets.end(), does);
