@@ -16,8 +16,9 @@ double latchingTime(double reducedMass, double loading, double unloading) {
 }
 
 std::string latchingLaw(double loading, double unloading) {
-  return fmt::format(R"({{ law = "linear", stiffness = "{:.10g} N/m", restitution = {:.10g} }})", loading,
-                     std::sqrt(loading / unloading));
+  return fmt::format(
+      R"({{ law = "walton_braun", stiffness = "{:.10g} N/m", unloading_stiffness = "{:.10g} N/m" }})",
+      loading, unloading);
 }
 
 std::string HopperBed::key() const {
