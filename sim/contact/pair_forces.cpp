@@ -27,7 +27,7 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
   view_.outputQuads = list.outputQuads();
   view_.slots = list.slots(0);
   view_.readsSpin = laws_.readsSpin();
-  view_.radiusArm = false;
+  view_.radiusArm = laws_.fullRadiusArm();
   view_.reads = laws_.reads();
 }
 

@@ -53,7 +53,8 @@ struct Species {
 struct WallSpec {
   std::string name;
   std::string material;
-  Choice shape; ///< a WallKind
+  Choice shape;  ///< a WallKind
+  Choice motion; ///< a MotionKind; kind "" for a wall that stands still
   bool operator==(const WallSpec&) const = default;
 };
 

@@ -8,6 +8,7 @@
 #include "sim/scene/probe_registry.h"
 #include "sim/scene/scene_sections.h"
 #include "sim/scene/table_reader.h"
+#include "sim/walls/wall_motion.h"
 #include "sim/walls/wall_registry.h"
 
 namespace sandglass {
@@ -133,6 +134,12 @@ private:
     TableReader in(table, path, faults_);
     readKeys(in, wallKeys(), wall);
     const WallKind* kind = in.choose("kind", wallKinds(), wall.shape);
+    if (const ValueTable* motion = in.subtable("motion")) {
+      TableReader motionIn(*motion, path + ".motion", faults_);
+      const MotionKind* how = motionIn.choose("kind", motionKinds(), wall.motion);
+      motionIn.reportUnknown();
+      if (how && !faults_.has(path + ".motion")) tryToMake(*how, wall.motion, path + ".motion");
+    }
     in.reportUnknown();
     if (kind && !faults_.has(path)) tryToMake(*kind, wall.shape, path);
   }
@@ -149,6 +156,11 @@ private:
     OutletSpec& outlet = scene_.outlets.emplace_back();
     TableReader in(table, path, faults_);
     readKeys(in, outletKeys(), outlet);
+    if (const ValueTable* recycle = in.subtable("recycle")) {
+      TableReader recycleIn(*recycle, path + ".recycle", faults_);
+      readKeys(recycleIn, recycleKeys(), outlet.recycle.emplace());
+      recycleIn.reportUnknown();
+    }
     in.reportUnknown();
   }
 

@@ -46,6 +46,8 @@ public:
   virtual void removeWall(const std::string& name) = 0;
   /// From now on velocities and spins decay at this rate [1/s], beside all forces; 0: no more.
   virtual void setDrag(double rate) = 0;
+  /// A stage of the scene begins now; for walls whose motion waits for one.
+  virtual void beginStage(const std::string& name) {}
 
   /// Runs `steps` steps. Throws RunError when the state turned bad (NaN, escape, overlap); then the state is
   /// not to be used any more.
@@ -68,6 +70,8 @@ public:
   virtual const Flow& flow() const = 0;
   virtual std::vector<GrainSeed> present() const = 0; ///< ascending ids
   virtual std::vector<FrameWall> walls() const = 0;   ///< with forces now
+  /// What moving walls have done to the grains since the run began [J].
+  virtual double wallWork() const { return 0.0; }
 
   /// Everything that decides the future, bit for bit: a named set of byte arrays.
   using State = std::map<std::string, std::vector<std::byte>>;

@@ -25,14 +25,16 @@ Scene Beads::scene(const std::vector<std::string>& knobs) const {
     const double zeta = 0.5 * dampingRate * std::sqrt(mass / stiffness);
     const double e =
         restitution > 0 ? restitution : std::exp(-std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta));
-    return fmt::format(R"([[contact]]
+    return fmt::format(
+        R"([[contact]]
 between = ["bead", "{}"]
 normal = {{ law = "linear", stiffness = "{:.17g} N/m", restitution = {:.17g} }}
 tangential = {}
 )",
-                       with, stiffness, e,
-                       friction ? fmt::format(R"({{ law = "spring", friction = {} }})", frictionCoefficient)
-                                : R"({ law = "none" })");
+        with, stiffness, e,
+        friction ? fmt::format(R"({{ law = "spring", friction = {}, rotation = "project", arm = "radius" }})",
+                               frictionCoefficient)
+                 : R"({ law = "none" })");
   };
   const double mass = std::numbers::pi / 6;
   return parseScene(fmt::format(R"(

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <unistd.h>
@@ -131,36 +130,35 @@ LammpsRun runLammps(const fs::path& folder, const std::string& deck, int ranks) 
   return run;
 }
 
-std::vector<GrainSeed> readLammpsDump(const fs::path& file) {
+std::string lammpsDumpCommand(const std::string& file, long long every) {
+  return fmt::format("dump all all custom {} {} id radius x y z vx vy vz omegax omegay omegaz\n"
+                     "dump_modify all sort id format float %.17g\n",
+                     every, file);
+}
+
+std::vector<std::vector<GrainSeed>> readLammpsDump(const fs::path& file) {
   std::ifstream in(file);
   if (!in) throw RunError(fmt::format("LAMMPS left no dump '{}'", file.string()));
-  std::vector<std::string> columns;
-  std::vector<GrainSeed> grains;
+  bool atoms = false;
+  std::vector<std::vector<GrainSeed>> snapshots;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("ITEM: ")) {
-      columns.clear();
-      if (line.starts_with("ITEM: ATOMS ")) {
-        columns = words(line.substr(12));
-        grains.clear();
-      }
+      atoms = line.starts_with("ITEM: ATOMS ");
+      if (atoms) snapshots.emplace_back();
       continue;
     }
-    if (columns.empty()) continue;
-    const auto values = numbers(line);
-    const auto value = [&](const std::string& name) {
-      const auto at = std::find(columns.begin(), columns.end(), name);
-      return values.at(at - columns.begin());
-    };
+    if (!atoms) continue;
+    const auto v = numbers(line);
+    if (v.size() != 11) throw RunError(fmt::format("'{}' has a line of {} numbers", file.string(), v.size()));
     GrainSeed g;
-    g.id = static_cast<std::int64_t>(value("id")) - 1;
-    g.radius = value("radius");
-    g.position = {value("x"), value("y"), value("z")};
-    g.velocity = {value("vx"), value("vy"), value("vz")};
-    g.spin = {value("omegax"), value("omegay"), value("omegaz")};
-    grains.push_back(g);
+    g.id = static_cast<std::int64_t>(v[0]) - 1;
+    g.radius = v[1];
+    g.position = {v[2], v[3], v[4]};
+    g.velocity = {v[5], v[6], v[7]};
+    g.spin = {v[8], v[9], v[10]};
+    snapshots.back().push_back(g);
   }
-  std::sort(grains.begin(), grains.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  return grains;
+  return snapshots;
 }
 
 } // namespace sandglass::peers

@@ -47,8 +47,9 @@ struct LammpsRun {
 /// Runs the deck in `folder` on so many ranks. Throws RunError with LAMMPS's own words when it fails.
 LammpsRun runLammps(const std::filesystem::path& folder, const std::string& deck, int ranks);
 
-/// One snapshot of a custom dump with the columns id, radius, x y z, vx vy vz, omegax omegay omegaz: the last
-/// one in the file, in order of ids.
-std::vector<GrainSeed> readLammpsDump(const std::filesystem::path& file);
+/// The command that dumps every so many steps with all digits, for readLammpsDump.
+std::string lammpsDumpCommand(const std::string& file, long long every);
+/// All snapshots of such a dump, each in order of ids.
+std::vector<std::vector<GrainSeed>> readLammpsDump(const std::filesystem::path& file);
 
 } // namespace sandglass::peers

@@ -56,8 +56,8 @@ bool DemSolver::isFree(const Vec3& position, double radius) const {
   for (const SolverWall& w : walls_) {
     if (!w.active) continue;
     WallShape::Touches touches;
-    w.shape->touches(position, radius, touches);
-    if (touches.count > 0 || w.shape->signedDistance(position) < 0.0) return false;
+    w.touches(position, radius, touches);
+    if (touches.count > 0 || w.shape->signedDistance(w.pose.toBody(position)) < 0.0) return false;
   }
   const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
   for (std::size_t i = 0; i < grains_.size(); ++i) {

@@ -150,17 +150,23 @@ double DemSolver::greatestSpeed() const {
 }
 
 std::vector<FrameWall> DemSolver::walls() const {
-  fullStep(); // wall forces of this instant
+  const FullStep& full = fullStep(); // wall forces of this instant
   std::vector<FrameWall> all;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
-    FrameWall wall;
-    wall.name = walls_[w].name;
-    wall.shape = walls_[w].shape;
-    wall.active = walls_[w].active;
-    if (!stale_) wallContacts_.total(grains_, static_cast<int>(w), wall.force, wall.torque);
-    all.push_back(std::move(wall));
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    if (!stale_) wallContacts_.total(grains_, static_cast<int>(w), force, torque);
+    SolverWall wall = walls_[w];
+    wall.tally = full.tallies[w];
+    all.push_back(frameWall(wall, force, torque));
   }
   return all;
+}
+
+double DemSolver::wallWork() const {
+  double sum = 0.0;
+  for (const WallTally& tally : fullStep().tallies)
+    sum += tally.work;
+  return sum;
 }
 
 namespace {
@@ -179,6 +185,13 @@ template <class T> void get(const Solver::State& state, const std::string& name,
   values.resize(it->second.size() / sizeof(T));
   if (!values.empty()) std::memcpy(values.data(), it->second.data(), it->second.size());
 }
+
+struct WallState {
+  std::int64_t active;
+  MotionMarks marks;
+  double allowance, listedTime;
+  WallTally tally;
+};
 
 struct Counters {
   std::int64_t step, nextId;
@@ -203,10 +216,10 @@ Solver::State DemSolver::save() {
   put(s, "groups.moved", loop_.moved());
   put(s, "walls.history", wallContacts_.historyArray());
   put(s, "walls.feature", wallContacts_.featureArray());
-  std::vector<std::uint8_t> active;
+  std::vector<WallState> walls;
   for (const SolverWall& w : walls_)
-    active.push_back(w.active);
-  put(s, "walls.active", active);
+    walls.push_back({w.active, w.marks, w.allowance, w.listedTime, w.tally});
+  put(s, "walls.state", walls);
   put(s, "lives", lives_.lives());
   put(s, "entries", lives_.entries());
   put(s, "counters", std::vector<Counters>{{step_, nextId_, flow_}});
@@ -214,18 +227,26 @@ Solver::State DemSolver::save() {
 }
 
 void DemSolver::load(const State& s) {
-  std::vector<std::uint8_t> active;
-  get(s, "walls.active", active);
-  if (active.size() != walls_.size())
+  std::vector<WallState> walls;
+  get(s, "walls.state", walls);
+  if (walls.size() != walls_.size())
     throw InputError(fmt::format("the checkpoint has {} walls and the scene {}; it belongs to another scene",
-                                 active.size(), walls_.size()));
-  for (std::size_t w = 0; w < walls_.size(); ++w)
-    walls_[w].active = active[w] != 0;
+                                 walls.size(), walls_.size()));
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    SolverWall& wall = walls_[w];
+    wall.active = walls[w].active != 0;
+    wall.marks = walls[w].marks;
+    wall.allowance = walls[w].allowance;
+    wall.listedTime = walls[w].listedTime;
+    wall.tally = walls[w].tally;
+    wall.pose = poseAt(wall, wall.listedTime); // until the list is made
+  }
   get(s, "listed", grains_.listed);
   get(s, "id", grains_.id);
   get(s, "species", grains_.species);
   get(s, "material", grains_.material);
   get(s, "image", grains_.image);
+  checkPromisedSizes();
   for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
     get(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
 
@@ -265,6 +286,7 @@ void DemSolver::load(const State& s) {
   nextId_ = counters.at(0).nextId;
   flow_ = counters.at(0).flow;
   stale_ = false;
+  placeWalls(walls_, time(), 0.0);
   atFullStep_.valid = false;
   for (std::size_t i = 0; i < grains_.size(); ++i)
     smallestRadius_ = std::min(smallestRadius_, grains_.place[i].w);

@@ -64,13 +64,14 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
   pairForces_.watchOverlap(scene.accuracy.maximumOverlap, smallestRadius_);
   grains_.quantityNames = laws_.quantityNames();
   grains_.quantities.resize(grains_.quantityNames.size());
-  for (const WallSpec& w : scene.walls) {
-    SolverWall wall{w.name, nullptr, materialIndex(scene, w.material), true};
-    for (const WallKind& kind : wallKinds())
-      if (kind.name == w.shape.kind) wall.shape = kind.make(w.shape.parameters);
-    if (!wall.shape) throw InputError(fmt::format("there is no wall kind '{}'", w.shape.kind));
-    walls_.push_back(std::move(wall));
-  }
+  walls_ = makeSolverWalls(scene);
+  wallRadius_ = farthestReach(walls_, scene.domain) + meanDiameter_ + skin_;
+  if (const double fastest = fastestWall(scene); fastest * dt_ > 0.25 * smallestRadius_)
+    throw InputError(
+        fmt::format("a wall moves at up to {:.3g} m/s, {:.3g} m in a step of {:.3g} s, more than a quarter "
+                    "of the smallest "
+                    "radius ({:.3g} m), and could jump over a grain; slow it down or lower time_step",
+                    fastest, fastest * dt_, dt_, smallestRadius_));
 }
 
 void DemSolver::add(const std::vector<GrainSeed>& seeds) {
@@ -101,6 +102,12 @@ void DemSolver::add(const std::vector<GrainSeed>& seeds) {
     smallestRadius_ = std::min(smallestRadius_, s.radius);
   }
   pairForces_.watchOverlap(scene_.accuracy.maximumOverlap, smallestRadius_);
+  checkPromisedSizes();
+}
+
+void DemSolver::checkPromisedSizes() {
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    if (!laws_.asPromised(grains_.material[i], grains_.motion[i].w)) return laws_.allowAnySize(scene_);
 }
 
 void DemSolver::removeWall(const std::string& name) {
@@ -111,6 +118,12 @@ void DemSolver::removeWall(const std::string& name) {
       return;
     }
   throw InputError(fmt::format("there is no wall '{}' to remove", name));
+}
+
+void DemSolver::beginStage(const std::string& name) {
+  markStage(walls_, name, time());
+  placeWalls(walls_, time(), 0.0);
+  atFullStep_.valid = false;
 }
 
 void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
@@ -129,6 +142,7 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
   list_.build(grains_, laws_.range(), parallel_, drop, [&](std::int64_t first, std::int64_t last) {
     allow(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
   });
+  allowTravel(walls_, dt_, skin_, meanDiameter_, wallRadius_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
   loop_.bind();
   atFullStep_.valid = false;
@@ -143,6 +157,9 @@ const DemSolver::FullStep& DemSolver::fullStep() const {
   full.spin.resize(grains_.turning ? n : 0);
   if (stale_) { // velocities are those of the full step already, and nobody knows the forces yet
     full.force.assign(n, {});
+    full.tallies.clear();
+    for (const SolverWall& wall : walls_)
+      full.tallies.push_back(wall.tally);
     for (std::size_t i = 0; i < n; ++i) {
       full.velocity[i] = grains_.motion[i].vec();
       if (grains_.turning) full.spin[i] = grains_.spin(i);
@@ -167,10 +184,17 @@ void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) co
   const auto history = walls.historyArray();
   const auto feature = walls.featureArray();
   DeepestOverlap deepest;
+  placeWalls(walls_, time(), stale_ ? 0.0 : dt_);
   walls.step(grains_, walls_, dt_, parallel_, deepest);
   loop_.forces(dt_, force, torque);
   walls.historyArray() = history;
   walls.featureArray() = feature;
+  auto tallied = walls_;
+  walls.tally(grains_, tallied, step_ == 0 ? 0.0 : dt_);
+  atFullStep_.tallies.clear();
+  for (const SolverWall& wall : tallied)
+    atFullStep_.tallies.push_back(wall.tally);
+  placeWalls(walls_, time(), 0.0); // as frames show them
 }
 
 void DemSolver::toFullStep() {
@@ -209,8 +233,10 @@ void DemSolver::prepare() {
 
 void DemSolver::advance(std::int64_t steps) {
   prepare();
+  placeWalls(walls_, time(), dt_);
   for (std::int64_t k = 0; k < steps; ++k)
     stepOnce();
+  placeWalls(walls_, time(), 0.0); // velocities of now, for frames
 }
 
 void DemSolver::damp() {
@@ -233,16 +259,19 @@ void DemSolver::stepOnce() {
   std::vector<PairEvent> events;
   DeepestOverlap deepest;
   wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
+  wallContacts_.tally(grains_, walls_, step_ == 0 ? 0.0 : dt_); // the work since the step before
   const auto report = loop_.step(dt_, scene_.gravity, 0.25 * smallestRadius_ / dt_, events, deepest);
   checkOverlap(deepest);
   if (report.bad) reportBadMotion();
   if (!events.empty()) applyEvents(events);
   if (drag_ > 0) damp();
   ++step_;
+  placeWalls(walls_, time(), dt_);
   atFullStep_.valid = false;
-  if (report.late) checkEscapes();
+  const bool late = report.late || wallsTravelledTooFar(walls_, wallRadius_);
+  if (late) checkEscapes();
   const bool fresh = step_ % stepsBetweenOutletChecks == 0 && discharge();
-  if (report.late && !fresh) rebuild();
+  if (late && !fresh) rebuild();
 }
 
 void DemSolver::applyEvents(std::vector<PairEvent>& events) {

@@ -29,6 +29,7 @@ public:
   void add(const std::vector<GrainSeed>& grains) override;
   void removeWall(const std::string& name) override;
   void setDrag(double rate) override { drag_ = rate; }
+  void beginStage(const std::string& name) override;
   void advance(std::int64_t steps) override;
 
   double time() const override { return static_cast<double>(step_) * dt_; }
@@ -45,6 +46,7 @@ public:
   const Flow& flow() const override { return flow_; }
   std::vector<GrainSeed> present() const override;
   std::vector<FrameWall> walls() const override;
+  double wallWork() const override;
 
   State save() override;
   void load(const State& state) override;
@@ -65,8 +67,10 @@ private:
     bool valid = false;
     std::vector<Quad> force, torque; ///< of contacts
     std::vector<Vec3> velocity, spin;
+    std::vector<WallTally> tallies; ///< of the walls, with what the forces of this instant add
   };
 
+  void checkPromisedSizes(); ///< laws may count on one grain mass a material until a grain has another
   void rebuild(const std::vector<std::uint8_t>& drop = {});
   void prepare();    ///< fresh list, velocities half a step back, after grains or walls have changed
   void toFullStep(); ///< before grains or walls change: velocities of the full step; `stale_` from here on
@@ -92,7 +96,8 @@ private:
   WallContacts wallContacts_;
   mutable ParticleLoop loop_;
   mutable FullStep atFullStep_;
-  std::vector<SolverWall> walls_;
+  mutable std::vector<SolverWall> walls_;
+  double wallRadius_ = 0; ///< [m] no grain is further from a moving wall's reference
   double dt_ = 0, skin_ = 0, meanDiameter_ = 0, smallestRadius_ = 0;
   std::int64_t step_ = 0, nextId_ = 0, rebuilds_ = 0;
   bool stale_ = true; ///< list and forces are not those of the grains and walls now; velocities are at the full step
