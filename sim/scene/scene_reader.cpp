@@ -8,6 +8,7 @@
 #include "sim/scene/probe_registry.h"
 #include "sim/scene/scene_sections.h"
 #include "sim/scene/table_reader.h"
+#include "sim/walls/mesh_file.h"
 #include "sim/walls/wall_motion.h"
 #include "sim/walls/wall_registry.h"
 
@@ -141,6 +142,13 @@ private:
       if (how && !faults_.has(path + ".motion")) tryToMake(*how, wall.motion, path + ".motion");
     }
     in.reportUnknown();
+    if (kind && wall.shape.parameters.has("file") && !faults_.has(path)) {
+      try {
+        wall.shape.parameters = meshFromFile(wall.shape.parameters, baseFolder_);
+      } catch (const InputError& problem) {
+        faults_.about(path, std::string("has no mesh: ") + problem.what());
+      }
+    }
     if (kind && !faults_.has(path)) tryToMake(*kind, wall.shape, path);
   }
 

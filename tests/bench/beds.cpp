@@ -130,8 +130,14 @@ std::vector<GrainSeed> tiled(const std::vector<GrainSeed>& tile, double side, in
 }
 
 std::vector<GrainSeed> flowing(const Beads& beads, const std::vector<GrainSeed>& start, double time) {
+  constexpr double shearRate = 0.05, agitation = 0.3;
+  std::vector<GrainSeed> moving = start;
+  for (GrainSeed& s : moving) {
+    RandomStream random(3, RandomPurpose::test, s.id);
+    s.velocity = Vec3(shearRate * s.position.z(), 0, 0) + agitation * random.direction();
+  }
   DemSolver solver(beads.scene(), {0});
-  solver.add(start);
+  solver.add(moving);
   solver.advance(std::llround(time / beads.timeStep));
   return solver.present();
 }

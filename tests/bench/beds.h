@@ -35,7 +35,8 @@ constexpr double tileSpacing = 1.05; ///< a tile is this wide per bead
 /// `tile`, of width `side`, nx times ny times side by side.
 std::vector<GrainSeed> tiled(const std::vector<GrainSeed>& tile, double side, int nx, int ny);
 
-/// The beads after `time` on the slope of `beads`.
+/// The beads sheared (at the rate that this flow has over a rough bottom), shaken, and then `time` on their
+/// own.
 std::vector<GrainSeed> flowing(const Beads& beads, const std::vector<GrainSeed>& start, double time);
 
 /// Beads on a lattice at a solid fraction in a periodic cube, velocities of unit spread.

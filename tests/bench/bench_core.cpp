@@ -7,6 +7,7 @@
 #include "sim/solvers/dem/dem_solver.h"
 #include "tests/bench/core_cases.h"
 #include "tests/bench/core_rows.h"
+#include "tests/peers/circumstances.h"
 #include "tests/peers/lammps.h"
 
 #include <CLI/CLI.hpp>
@@ -209,7 +210,10 @@ int main(int argc, char** argv) {
       measure(c, rounds, withLammps && !version.empty(), timings);
       if (withLammps && version.empty()) timings.push_back(notInstalled(name, "lammps"));
       write(csvFile, csv(timings)); // as it grows: a long bench may be stopped
-      write(tableFile, summary(timings));
+      write(tableFile,
+            fmt::format("Made by `./bootstrap bench core` on {}; {}; {} rounds.\n\n", peers::circumstances(),
+                        version.empty() ? "without LAMMPS" : version, rounds) +
+                summary(timings));
     }
     std::cout << csv(timings);
     std::cerr << "\n" << summary(timings);

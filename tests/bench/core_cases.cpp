@@ -46,7 +46,7 @@ CoreCase chute(bool quick, bool flows) {
   if (flows) {
     // One tile flows and is repeated: as good a bed to measure, at an eighth of the time.
     const Beads one{t.side(), t.side(), 2.0 * t.layers + 10, 26};
-    c.grains = tiled(flowing(one, t.grains, quick ? 0.5 : 6), t.side(), 4, 2);
+    c.grains = tiled(flowing(one, t.grains, quick ? 0.3 : 2), t.side(), 4, 2);
   }
   return c;
 }

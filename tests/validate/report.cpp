@@ -1,15 +1,12 @@
 #include "tests/validate/verdicts.h"
 
 #include "sim/base/error.h"
-#include "sim/base/version.h"
+#include "tests/peers/circumstances.h"
 #include "vis/chart.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <chrono>
 #include <fstream>
-#include <thread>
 
 namespace sandglass::validate {
 
@@ -19,27 +16,15 @@ void write(const std::filesystem::path& file, const std::string& text) {
   if (!(std::ofstream(file) << text)) throw RunError("cannot write " + file.string());
 }
 
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown processor";
-}
-
 } // namespace
-
-std::string circumstances() {
-  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format("{}, {} cores; sandglass {}; {:%d %B %Y}", processor(),
-                     std::thread::hardware_concurrency(), programVersion(), fmt::gmtime(now));
-}
 
 void writeReport(const Report& report, const std::filesystem::path& folder, const std::string& name,
                  const std::string& title, const std::string& preamble, const std::string& conditions) {
   std::filesystem::create_directories(folder / name);
   write(folder / (name + ".csv"), csv(report.rows));
-  std::string page = fmt::format("# {}\n\n{}\n\nMade by `./bootstrap validate {}` on {}{}{}.\n\n", title,
-                                 preamble, name, circumstances(), conditions.empty() ? "" : "; ", conditions);
+  std::string page =
+      fmt::format("# {}\n\n{}\n\nMade by `./bootstrap validate {}` on {}{}{}.\n\n", title, preamble, name,
+                  peers::circumstances(), conditions.empty() ? "" : "; ", conditions);
   page +=
       "| case | quantity | ours | expected | tolerance | source | verdict |\n|---|---|---|---|---|---|---|\n";
   for (const Row& r : report.rows) {
@@ -50,7 +35,7 @@ void writeReport(const Report& report, const std::filesystem::path& folder, cons
                         r.tolerance, r.source, verdict);
   }
   for (analysis::Curve curve : report.curves) {
-    curve.provenance["circumstances"] = circumstances();
+    curve.provenance["circumstances"] = peers::circumstances();
     write(folder / name / (curve.name + ".csv"), analysis::toCsv(curve));
     vis::writeChart(curve, folder / name / (curve.name + ".png"));
     page += fmt::format("\n![{}]({}/{}.png)\n", curve.title, name, curve.name);

@@ -43,7 +43,4 @@ struct Report {
 void writeReport(const Report& report, const std::filesystem::path& folder, const std::string& name,
                  const std::string& title, const std::string& preamble, const std::string& conditions);
 
-/// "Intel(R) Xeon(R) Processor, 2 cores; sandglass 0.1.0 (1a2b3c4); 22 November 2026"
-std::string circumstances();
-
 } // namespace sandglass::validate

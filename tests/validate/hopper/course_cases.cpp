@@ -22,7 +22,8 @@ double at(const std::vector<double>& x, const std::vector<double>& y, double whe
 }
 
 constexpr double window = 0.04;   ///< [s] over which a rate is taken
-constexpr double lastPart = 0.95; ///< the rate below this share of the slope ends the steady range
+/// The rate below this share of the slope ends the steady range, as in analysis::fitDischarge.
+constexpr double lastPart = 0.9;
 
 /// Rate against time, by differences over the window.
 analysis::Series rateSeries(const HopperRun& run) {

@@ -5,7 +5,9 @@
 #include "tests/peers/lammps.h"
 #include "tests/validate/verdicts.h"
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace sandglass::validate {
 
@@ -18,8 +20,10 @@ struct SharedLaw {
   peers::HookeHistory coefficients() const;
 };
 
-void comparePairs(Report& report);               ///< trajectories of one and two grains
-void compareBeds(Report& report, bool quick);    ///< height, coordination, stress of a settled bed
-void compareHoppers(Report& report, bool quick); ///< discharge rates from common settled beds
+void comparePairs(Report& report); ///< trajectories of one and two grains
+/// Height, coordination, stress of settled beds, one a seed.
+void compareBeds(Report& report, const std::vector<std::uint64_t>& seeds, bool quick);
+/// Discharge rates from common settled beds, one a seed.
+void compareHoppers(Report& report, const std::vector<std::uint64_t>& seeds, bool quick);
 
 } // namespace sandglass::validate
