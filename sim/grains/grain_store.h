@@ -45,9 +45,9 @@ public:
   bool turning = false; ///< spins are kept
   bool imaged = false;  ///< image counters are kept
 
-  QuadColumn place;  ///< position [m], radius [m]
-  QuadColumn motion; ///< velocity [m/s], 1/mass [1/kg]
-  QuadColumn roll;   ///< radius times spin [m/s], 1/radius [1/m]; when turning
+  QuadColumn place;         ///< position [m], radius [m]
+  QuadColumn motion;        ///< velocity [m/s], 1/mass [1/kg]
+  QuadColumn roll;          ///< radius times spin [m/s], 1/radius [1/m]; when turning
   std::vector<Quad> listed; ///< position when the list was built, and how far the grain may move from it [m]
   std::vector<std::int64_t> id;
   std::vector<std::int16_t> species;

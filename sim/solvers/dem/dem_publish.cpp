@@ -63,9 +63,8 @@ FramePtr DemSolver::frame() const {
   if (wants(quantity::spin) && grains_.turning)
     vectors(quantity::spin, [&](std::int32_t i) { return full.spin[i]; });
   if (wants(quantity::force))
-    vectors(quantity::force, [&](std::int32_t i) {
-      return Vec3(full.force[i].vec() + grains_.mass(i) * scene_.gravity);
-    });
+    vectors(quantity::force,
+            [&](std::int32_t i) { return Vec3(full.force[i].vec() + grains_.mass(i) * scene_.gravity); });
   if (wants(quantity::residenceTime))
     scalars(quantity::residenceTime,
             [&](std::int32_t i) { return time() - lives_.enteredAt(grains_.id[i]); });
@@ -117,8 +116,7 @@ Energies DemSolver::energies() const {
     e.gravitational -= m * scene_.gravity.dot(x);
     if (grains_.turning) e.rotational += 0.5 * grains_.inertia(i) * full.spin[i].squaredNorm();
   }
-  if (!stale_)
-    e.elastic = pairForces_.storedEnergy(dt_) + wallContacts_.storedEnergy(grains_, walls_);
+  if (!stale_) e.elastic = pairForces_.storedEnergy(dt_) + wallContacts_.storedEnergy(grains_, walls_);
   return e;
 }
 
@@ -253,7 +251,8 @@ void DemSolver::load(const State& s) {
   std::vector<Quad> records;
   get(s, "records", records);
   if (records.size() != (grains_.size() + 2) * grains_.quadsPerRecord())
-    throw InputError("the checkpoint's grain records do not fit the scene; it belongs to another scene or version");
+    throw InputError(
+        "the checkpoint's grain records do not fit the scene; it belongs to another scene or version");
   grains_.setRecords(records);
 
   // The list as it was: built from the positions that it was built from. The sort is stable, so the storage
