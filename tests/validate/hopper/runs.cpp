@@ -61,7 +61,7 @@ HopperRun HopperRuns::run(const HopperBed& asked, std::uint64_t seed) const {
     }
   };
   run.onSavedFrame = [&](FramePtr f) {
-    if (f->stage == "settle" || result.fillHeight == 0) {
+    if (f->stage != "discharge") {
       result.opened = f->time;
       double top = 0;
       for (const Vec3& x : f->position)
