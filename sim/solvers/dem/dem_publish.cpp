@@ -77,6 +77,7 @@ FramePtr DemSolver::frame() const {
     contact.image = list_.image(p);
     contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
     contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
+    contact.overlap = b.overlap[c];
     const double sum = b.radiusA[c] + b.radiusB[c];
     contact.point =
         wrapped(grains_.place[i].vec() - b.radiusA[c] * (sum - b.overlap[c]) / sum * contact.normal);
@@ -92,6 +93,7 @@ FramePtr DemSolver::frame() const {
         contact.a = grains_.id[i];
         contact.wall = wall;
         contact.normal = touch.normal;
+        contact.overlap = b.overlap[c];
         contact.force = b.normalForce[c] * touch.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
         contact.point = wrapped(grains_.place[i].vec() - touch.distance * touch.normal);
         frame->contacts.push_back(contact);
