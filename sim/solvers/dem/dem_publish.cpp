@@ -81,6 +81,7 @@ FramePtr DemSolver::frame() const {
     contact.image = list_.image(p);
     contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
     contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
+    contact.overlap = b.overlap[c];
     const double radius = grains_.place[i].w, sum = radius + grains_.place[j].w;
     contact.point = wrapped(grains_.place[i].vec() - radius * (sum - b.overlap[c]) / sum * contact.normal);
     frame->contacts.push_back(contact);
@@ -95,6 +96,7 @@ FramePtr DemSolver::frame() const {
         contact.a = grains_.id[i];
         contact.wall = wall;
         contact.normal = touch.normal;
+        contact.overlap = b.overlap[c];
         contact.force = b.normalForce[c] * touch.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
         contact.point = wrapped(grains_.place[i].vec() - touch.distance * touch.normal);
         frame->contacts.push_back(contact);
