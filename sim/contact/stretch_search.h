@@ -35,6 +35,10 @@ using CellSearcher = std::int64_t (*)(const CellSearch& cell, std::int32_t* part
 
 std::int64_t searchCellPlain(const CellSearch& cell, std::int32_t* partner, std::uint8_t* code,
                              std::int32_t* count);
+std::int64_t searchCellAvx2(const CellSearch& cell, std::int32_t* partner, std::uint8_t* code,
+                            std::int32_t* count);
+std::int64_t searchCellAvx512(const CellSearch& cell, std::int32_t* partner, std::uint8_t* code,
+                              std::int32_t* count);
 
 CellSearcher cellSearcher(KernelWidth width);
 
