@@ -28,14 +28,6 @@ public:
     std::array<int, 3> count{1, 1, 1};
     std::array<int, 3> look{0, 0, 0}; ///< cells to look beyond one's own for partners of the same level
     std::int32_t firstCell = 0;
-
-    int along(double x, int axis) const {
-      const int c = static_cast<int>((x - lower[axis]) * perWidth[axis]);
-      return c < 0 ? 0 : c < count[axis] ? c : count[axis] - 1;
-    }
-    std::int32_t cellOf(const Quad& q) const {
-      return firstCell + (along(q.x, 0) * count[1] + along(q.y, 1)) * count[2] + along(q.z, 2);
-    }
   };
 
   /// The reach of a grain, here, is its radius + range / 2 + the largest motion that any grain is allowed
@@ -56,6 +48,7 @@ public:
 
 private:
   struct Bounds;
+  struct Map;
   void lay(const Domain& domain, const Bounds& bounds);
 
   std::array<bool, 3> periodic_{};

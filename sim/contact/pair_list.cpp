@@ -7,12 +7,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <limits>
 
 namespace sandglass {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t grainsPerPiece = 2048;
 constexpr std::int64_t grainsPerChunk = 2048, mostChunks = 16;
 constexpr std::int64_t groupsPerBlock = 8, mostBlocks = 64; ///< least and most
@@ -70,20 +71,26 @@ void PairList::build(GrainStore& grains, double range, Parallel& parallel,
 
 void PairList::wrap(GrainStore& grains, Parallel& parallel) {
   const Vec3 extent = domain_.upper - domain_.lower;
+  std::array<double, 3> lower{-infinity, -infinity, -infinity}, upper{infinity, infinity, infinity};
+  for (int axis = 0; axis < 3; ++axis)
+    if (domain_.periodic[axis]) lower[axis] = domain_.lower[axis], upper[axis] = domain_.upper[axis];
   const std::int64_t n = static_cast<std::int64_t>(grains.size());
   wrapped_.resize(static_cast<std::size_t>(n));
   parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
+      wrapped_[i] = 0;
+      Quad& q = grains.place[i];
+      const bool outside = (q.x < lower[0]) | (q.x >= upper[0]) | (q.y < lower[1]) | (q.y >= upper[1]) |
+                           (q.z < lower[2]) | (q.z >= upper[2]);
+      if (!outside) continue;
       std::array<int, 3> shift{0, 0, 0};
       for (int axis = 0; axis < 3; ++axis) {
-        if (!domain_.periodic[axis]) continue;
-        double& x = component(grains.place[i], axis);
-        if (x >= domain_.lower[axis] && x < domain_.upper[axis]) continue;
-        while (x >= domain_.upper[axis])
+        double& x = component(q, axis);
+        while (x >= upper[axis])
           x -= extent[axis], ++shift[axis];
-        while (x < domain_.lower[axis])
+        while (x < lower[axis])
           x += extent[axis], --shift[axis];
-        if (x >= domain_.upper[axis]) x = domain_.lower[axis]; // x + L rounded up to the upper side
+        if (x >= upper[axis]) x = lower[axis]; // x + L rounded up to the upper side
         grains.image[i][axis] += shift[axis];
       }
       wrapped_[i] = PairCarrier::pack(shift);
@@ -219,21 +226,30 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
       const std::int32_t* partner = block.rows.partner.data();
       const std::uint8_t* code = periodic_ ? block.rows.code.data() : nullptr;
       std::int64_t inside = block.firstPair, crossing = block.firstCrossing;
-      for (std::int64_t i = block.firstGrain; i < block.lastGrain; ++i) {
-        if (carries) carrier.openRow(i);
-        for (std::int32_t k = 0; k < rowLength_[i]; ++k) {
-          const std::int32_t j = *partner++;
-          const std::int64_t p = j < chunkEnd ? inside++ : crossing++;
-          // Oriented by id; turning a pair round mirrors its image.
-          const bool turned = id[i] > id[j];
-          const std::int32_t me = static_cast<std::int32_t>(i);
-          now_.pairs[p] = turned ? Pair{j, me} : Pair{me, j};
-          if (code) {
-            now_.shiftOf[p] = static_cast<std::uint8_t>(turned ? now_.codes.mirrored(*code) : *code);
-            ++code;
-          }
-          if (carries) carrier.carry(j, p);
+      const auto write = [&](std::int64_t i, std::int64_t count, std::int64_t p) {
+        const auto me = static_cast<std::int32_t>(i);
+        const std::int64_t mine = id[i];
+        for (std::int64_t k = 0; k < count; ++k) {
+          const std::int32_t j = partner[k];
+          const bool turned = mine > id[j]; // oriented by id
+          now_.pairs[p + k] = {turned ? j : me, turned ? me : j};
+          if (!code) continue;
+          const int seen = code[k]; // turning a pair round mirrors its image
+          now_.shiftOf[p + k] = static_cast<std::uint8_t>(turned ? now_.codes.mirrored(seen) : seen);
         }
+        if (carries) carrier.carry(i, partner, count, p);
+        partner += count;
+        if (code) code += count;
+      };
+      for (std::int64_t i = block.firstGrain; i < block.lastGrain; ++i) {
+        const std::int64_t length = rowLength_[i];
+        std::int64_t own = length;
+        while (own > 0 && partner[own - 1] >= chunkEnd)
+          --own;
+        if (own > 0) write(i, own, inside);
+        if (own < length) write(i, length - own, crossing);
+        inside += own;
+        crossing += length - own;
         if ((i + 1) % group == 0 || i + 1 == block.lastGrain) groupEnd_[i / group] = inside;
       }
     }
