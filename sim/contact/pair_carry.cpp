@@ -9,14 +9,23 @@ namespace sandglass {
 
 struct PairCarrier::Row {
   std::int32_t grain, wrapped; ///< by old storage index
-  const std::int32_t* slots;
-  __m256i partners; ///< old storage indices of the grains in the slots
+  bool full;                   ///< there may be more contacts than slots
+  __m256i partners;            ///< old storage indices of the grains in the slots
+  alignas(32) std::array<std::int32_t, PairListing::slotCount + 1> entries; ///< the slots, and an empty one
 };
 
-PairCarrier::PairCarrier(PairListing& past, PairListing& now, const std::vector<std::int32_t>& order,
+void PairCarrier::retire(PairListing& listing, int historySize) {
+  listing.pairs.push_back({-1, -1});
+  listing.history.resize(listing.history.size() + static_cast<std::size_t>(PairListing::lane * historySize));
+  if (!listing.shiftOf.empty()) listing.shiftOf.push_back(0);
+  if (!listing.live.empty()) listing.live.push_back(0);
+}
+
+PairCarrier::PairCarrier(const PairListing& past, PairListing& now, const std::vector<std::int32_t>& order,
                          const std::vector<std::int32_t>& wrapped, int historySize)
     : past_(past), now_(now), order_(order), wrapped_(wrapped),
-      flat_(reinterpret_cast<const std::int32_t*>(past.pairs.data())), historySize_(historySize),
+      flat_(reinterpret_cast<const std::int32_t*>(past.pairs.data())),
+      empty_(static_cast<std::int32_t>(past.entries << 1)), historySize_(historySize),
       imaged_(!now.shiftOf.empty()), sameCodes_(past.codes.reach == now.codes.reach) {}
 
 void PairCarrier::carry(std::int64_t i, const std::int32_t* partners, std::int64_t count, std::int64_t p) {
@@ -27,10 +36,14 @@ void PairCarrier::carry(std::int64_t i, const std::int32_t* partners, std::int64
       startAnew(p + k);
     return;
   }
-  const std::int32_t* slots = slotsOf(grain);
-  const __m256i entries = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(slots));
-  const Row row{grain, imaged_ ? wrapped_[grain] : 0, slots,
-                _mm256_i32gather_epi32(flat_, _mm256_xor_si256(entries, _mm256_set1_epi32(1)), 4)};
+  const __m256i entries = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(slotsOf(grain)));
+  Row row;
+  row.grain = grain;
+  row.wrapped = imaged_ ? wrapped_[grain] : 0;
+  row.partners = _mm256_i32gather_epi32(flat_, _mm256_xor_si256(entries, _mm256_set1_epi32(1)), 4);
+  _mm256_store_si256(reinterpret_cast<__m256i*>(row.entries.data()), entries);
+  row.entries.back() = empty_;
+  row.full = row.entries[PairListing::slotCount - 1] != empty_;
   if (historySize_ == 3)
     carryRow<3>(row, partners, count, p);
   else
@@ -41,17 +54,27 @@ template <int fixedSize>
 void PairCarrier::carryRow(const Row& row, const std::int32_t* partners, std::int64_t count, std::int64_t p) {
   constexpr std::int64_t lane = PairListing::lane;
   const int size = fixedSize < 0 ? historySize_ : fixedSize;
+  double* const now = now_.history.data();
+  const double* const past = past_.history.data();
+  std::uint8_t* const live = now_.live.empty() ? nullptr : now_.live.data();
+  const std::uint8_t* const shiftOf = imaged_ ? now_.shiftOf.data() : nullptr;
   for (std::int64_t k = 0; k < count; ++k, ++p) {
-    const std::int64_t old = find(row, order_[partners[k]], p);
-    if (old < 0) {
-      startAnew(p);
-      continue;
-    }
-    double* to = now_.history.data() + p / lane * lane * size + p % lane;
-    const double* from = past_.history.data() + old / lane * lane * size + old % lane;
+    // Which pairs are new cannot be foretold, so there is no branch on it: they find the empty entry, and the
+    // zeros behind the last old history.
+    const std::int32_t partner = order_[partners[k]];
+    const __m256i equal = _mm256_cmpeq_epi32(row.partners, _mm256_set1_epi32(partner));
+    const unsigned matches = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
+    std::int64_t old = row.entries[std::countr_zero(matches | 1u << PairListing::slotCount)] >> 1;
+    bool unsure = (matches == 0) & row.full;
+    if (shiftOf)
+      unsure |= (matches != 0) &
+                (!sameCodes_ | (past_.shiftOf[old] != shiftOf[p]) | (wrapped_[partner] != row.wrapped));
+    if (unsure) old = find(row, matches, partner, p);
+    double* to = now + p / lane * lane * size + p % lane;
+    const double* from = past + old / lane * lane * size + old % lane;
     for (int q = 0; q < size; ++q)
       to[q * lane] = from[q * lane];
-    if (!now_.live.empty()) now_.live[p] = past_.live[old];
+    if (live) live[p] = past_.live[old];
   }
 }
 
@@ -63,18 +86,12 @@ void PairCarrier::startAnew(std::int64_t p) {
   if (!now_.live.empty()) now_.live[p] = 0;
 }
 
-inline std::int64_t PairCarrier::find(const Row& row, std::int32_t partner, std::int64_t p) const {
-  const __m256i equal = _mm256_cmpeq_epi32(row.partners, _mm256_set1_epi32(partner));
-  unsigned matches = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
+std::int64_t PairCarrier::find(const Row& row, unsigned matches, std::int32_t partner, std::int64_t p) const {
   for (; matches != 0; matches &= matches - 1) {
-    const std::int64_t old = row.slots[std::countr_zero(matches)] >> 1;
-    if (!imaged_ ||
-        (sameCodes_ && past_.shiftOf[old] == now_.shiftOf[p] && wrapped_[partner] == row.wrapped) ||
-        sameImage(old, p))
-      return old;
+    const std::int64_t old = row.entries[std::countr_zero(matches)] >> 1;
+    if (sameImage(old, p)) return old;
   }
-  const bool full = row.slots[PairListing::slotCount - 1] != past_.entries << 1;
-  return full && partner < past_.grains ? findFurther(row.grain, partner, p) : -1;
+  return row.full && partner < past_.grains ? findFurther(row.grain, partner, p) : past_.entries;
 }
 
 /// Box crossings of b against a do not change when grains are wrapped: s - n_b + n_a, with the image counters
@@ -94,7 +111,7 @@ std::int64_t PairCarrier::findAmong(std::int32_t grain, std::int32_t partner, st
                            [](const PairListing::Extra& e, std::int32_t g) { return e.grain < g; });
   for (; extra != end && extra->grain == grain; ++extra)
     if (flat_[extra->entry ^ 1] == partner && sameImage(extra->entry >> 1, p)) return extra->entry >> 1;
-  return -1;
+  return past_.entries;
 }
 
 /// The row's grain has more contacts than slots. A large grain can have thousands; its partner is more
@@ -103,7 +120,7 @@ std::int64_t PairCarrier::findFurther(std::int32_t grain, std::int32_t partner, 
   const std::int32_t* slots = slotsOf(partner);
   for (int k = 0; k < PairListing::slotCount; ++k)
     if (flat_[slots[k] ^ 1] == grain && sameImage(slots[k] >> 1, p)) return slots[k] >> 1;
-  if (slots[PairListing::slotCount - 1] == past_.entries << 1) return -1;
+  if (slots[PairListing::slotCount - 1] == empty_) return past_.entries;
   // Both overflow, so the pair stands among the extras of both. Later in storage are the coarser grains, with
   // more of them.
   return findAmong(std::min(grain, partner), std::max(grain, partner), p);

@@ -18,9 +18,12 @@ public:
     return (shift[0] * 1024 + shift[1]) * 1024 + shift[2];
   }
 
+  /// Makes a listing the old one: what empty slots point at gets a pair, a history of zeros and the like.
+  static void retire(PairListing& listing, int historySize);
+
   /// `order` gives the old storage index of each grain, and `wrapped` by how many boxes (packed, by old
   /// index) its image counters have grown since then (empty without periodic directions).
-  PairCarrier(PairListing& past, PairListing& now, const std::vector<std::int32_t>& order,
+  PairCarrier(const PairListing& past, PairListing& now, const std::vector<std::int32_t>& order,
               const std::vector<std::int32_t>& wrapped, int historySize);
 
   /// Pairs p, p + 1, ... of the row of grain i, with `count` partners: copies histories and live flags, or
@@ -33,7 +36,7 @@ private:
   void carryRow(const Row& row, const std::int32_t* partners, std::int64_t count, std::int64_t p);
   void startAnew(std::int64_t p);
   bool sameImage(std::int64_t old, std::int64_t p) const;
-  std::int64_t find(const Row& row, std::int32_t partner, std::int64_t p) const;
+  std::int64_t find(const Row& row, unsigned matches, std::int32_t partner, std::int64_t p) const;
   std::int64_t findAmong(std::int32_t grain, std::int32_t partner, std::int64_t p) const;
   std::int64_t findFurther(std::int32_t grain, std::int32_t partner, std::int64_t p) const;
 
@@ -45,6 +48,7 @@ private:
   PairListing& now_;
   const std::vector<std::int32_t>&order_, &wrapped_;
   const std::int32_t* flat_; ///< old pairs as numbers: entry ^ 1 is where the other grain of an entry stands
+  const std::int32_t empty_; ///< what stands in an empty old slot
   const int historySize_;
   const bool imaged_, sameCodes_; ///< image codes mean what they meant
 };

@@ -59,7 +59,7 @@ void PairList::build(GrainStore& grains, double range, Parallel& parallel,
   fillColumns(grains, range, parallel, allow);
 
   std::swap(now_, past_);
-  past_.pairs.push_back({-1, -1}); // what empty slots point at
+  PairCarrier::retire(past_, historySize_);
   if (periodic_) now_.codes = ImageCodes(domain_, 2.0 * grid_.largestReach());
   now_.grains = static_cast<std::int64_t>(grains.size());
   cut(now_.grains);
@@ -195,9 +195,9 @@ void PairList::layOut() {
 
   now_.entries = at;
   makeRoom(now_.pairs, at, 1);
-  if (periodic_) makeRoom(now_.shiftOf, at);
-  makeRoom(now_.history, at * historySize_);
-  if (keepsLive_) makeRoom(now_.live, at);
+  if (periodic_) makeRoom(now_.shiftOf, at, 1); // and one more each to retire
+  makeRoom(now_.history, at * historySize_, lane * historySize_);
+  if (keepsLive_) makeRoom(now_.live, at, 1);
   makeRoom(output_, (at + 1) * outputQuads_);
   std::fill(output_.end() - outputQuads_, output_.end(), Quad{});
   groupEnd_.resize(static_cast<std::size_t>(now_.groups()));

@@ -67,6 +67,7 @@ struct PairSearch::Scratch {
   int count = 0;
   std::int64_t most = 0;     ///< grains in all stretches
   std::int32_t furthest = 0; ///< end of the last one
+  bool shifted = false;      ///< some stretch is seen in another image
 };
 
 PairSearch::PairSearch(const CellGrid& grid, const ImageCodes& codes, const GrainColumns& columns,
@@ -113,12 +114,14 @@ void PairSearch::openCell(std::size_t home, int z, std::int32_t firstGrain, Scra
   if (scratch.stretches.size() < room) scratch.stretches.resize(room);
   Stretch* to = scratch.stretches.data();
   scratch.most = scratch.furthest = 0;
+  int shifted = 0;
   const auto add = [&](std::int32_t begin, std::int32_t end, int code) {
     *to = {begin, end, code};
     const bool holdsPartners = end > begin && end > firstGrain;
     to += holdsPartners;
     scratch.most += holdsPartners ? end - begin : 0;
     scratch.furthest = std::max(scratch.furthest, end);
+    shifted |= code ^ codes_.center();
   };
   for (std::size_t c = 0; c < columns;) {
     const int level = scratch.columns[c].level;
@@ -145,6 +148,7 @@ void PairSearch::openCell(std::size_t home, int z, std::int32_t firstGrain, Scra
     }
   }
   scratch.count = static_cast<int>(to - scratch.stretches.data());
+  scratch.shifted = shifted != 0;
 }
 
 /// Calls visit(scratch, first, last) for the grains of each cell among first .. last - 1.
@@ -178,16 +182,13 @@ template <class Visit> void PairSearch::eachCell(std::int64_t first, std::int64_
 void PairSearch::rows(std::int64_t first, std::int64_t last, std::int64_t crossingFrom, std::int32_t* count,
                       FoundRows& found) const {
   found.size = found.crossing = 0;
-  CellSearch task{columns_.x.data(),
-                  columns_.y.data(),
-                  columns_.z.data(),
-                  columns_.reach.data(),
-                  codes_.shift.data(),
-                  codes_.center(),
-                  nullptr,
-                  0,
-                  0,
-                  0};
+  CellSearch task{};
+  task.x = columns_.x.data();
+  task.y = columns_.y.data();
+  task.z = columns_.z.data();
+  task.reach = columns_.reach.data();
+  task.shift = codes_.shift.data();
+  task.center = codes_.center();
   eachCell(first, last, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
     const std::size_t room =
         static_cast<std::size_t>(found.size + scratch.most * (end - begin)) + CellSearch::writeAhead;
@@ -195,6 +196,7 @@ void PairSearch::rows(std::int64_t first, std::int64_t last, std::int64_t crossi
     if (imaged_ && found.code.size() < found.partner.size()) found.code.resize(found.partner.size());
     task.stretches = scratch.stretches.data();
     task.stretchCount = scratch.count;
+    task.shifted = scratch.shifted;
     task.first = begin;
     task.last = end;
     std::int32_t* partner = found.partner.data() + found.size;

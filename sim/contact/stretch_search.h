@@ -19,6 +19,7 @@ struct CellSearch {
   const double *x, *y, *z, *reach;
   const Quad* shift; ///< of each image code
   int center;        ///< the code of no shift
+  bool shifted;      ///< there are other codes among the stretches
   const Stretch* stretches;
   int stretchCount;
   std::int32_t first, last; ///< the grains of the cell
