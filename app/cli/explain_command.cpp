@@ -54,7 +54,8 @@ void printParts(const Scene& scene) {
     fmt::print("  contact    {} on {}: {} normal, {} tangential, {} rolling\n", c.first, c.second,
                c.normal.kind, c.tangential.kind, c.rolling.kind);
   for (const auto& w : scene.walls)
-    fmt::print("  wall       {}: {} of {}\n", w.name, w.shape.kind, w.material);
+    fmt::print("  wall       {}: {} of {}{}\n", w.name, w.shape.kind, w.material,
+               w.motion.kind.empty() ? "" : ", moves: " + w.motion.kind);
   for (const auto& o : scene.outlets)
     fmt::print("  outlet     {}\n", o.name);
   for (const auto& f : scene.fills)
@@ -69,6 +70,17 @@ std::string ending(const StageSpec& stage) {
   if (stage.settledKineticEnergy)
     ends.push_back(fmt::format("a grain has {:.3g} J of kinetic energy on average (after {:.4g} s)",
                                *stage.settledKineticEnergy, stage.settledAfter));
+  if (stage.settledSpeed) {
+    const std::string rest = fmt::format("no grain is faster than {:.3g} m/s (after {:.4g} s)",
+                                         *stage.settledSpeed, stage.settledAfter);
+    if (stage.settledKineticEnergy)
+      ends.back() += " and " + rest;
+    else
+      ends.push_back(rest);
+  }
+  if (stage.recirculations)
+    ends.push_back(
+        fmt::format("{:.4g} times as many grains as there were have been put back", *stage.recirculations));
   if (stage.untilEmpty) ends.push_back("no grain is left");
   if (stage.massDischarged) ends.push_back(fmt::format("{:.4g} kg have left", *stage.massDischarged));
   if (stage.quietTime) ends.push_back(fmt::format("no grain has left for {:.4g} s", *stage.quietTime));

@@ -33,6 +33,8 @@ void printSummary(const RunSummary& s, const std::string& folder) {
              s.steps, s.frames, folder);
   fmt::print("{} grains at the end; {} entered, {} left ({:.6g} kg discharged)\n", s.grains,
              s.flow.grainsEntered, s.flow.grainsDischarged, s.flow.massDischarged);
+  if (s.flow.grainsRecycled > 0)
+    fmt::print("{} were put back ({:.6g} kg)\n", s.flow.grainsRecycled, s.flow.massRecycled);
   if (s.wallSeconds > 0)
     fmt::print("{:.1f} s of computing, {} grain-steps a second\n", s.wallSeconds,
                largeNumber(s.grainSteps / s.wallSeconds));

@@ -21,6 +21,7 @@ enum class RandomPurpose : std::uint32_t {
   speciesChoice = 5,
   analysisSample = 6,
   test = 7,
+  recyclePlace = 8,
 };
 
 /// An endless stream for one (seed, purpose, item).

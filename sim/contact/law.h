@@ -4,6 +4,7 @@
 
 #include "sim/contact/contact_block.h"
 #include "sim/contact/kernel_width.h"
+#include "sim/contact/law_columns.h"
 #include "sim/contact/law_registry.h"
 #include "sim/scene/parameters.h"
 
@@ -15,9 +16,12 @@ namespace sandglass {
 
 /// What a law may know of a pair of materials.
 struct PairType {
-  bool used = false;                 ///< whether grains of the scene can meet so
-  Parameters parameters;             ///< of the law for this pair
-  double referenceMass = 0;          ///< [kg] reduced mass of the mean grains
+  bool used = false;        ///< whether grains of the scene can meet so
+  Parameters parameters;    ///< of the law for this pair
+  double referenceMass = 0; ///< [kg] reduced mass of the mean grains
+  /// [kg] reduced mass that all its contacts have exactly, with walls or among grains of one size; 0 when
+  /// they differ.
+  double uniformMass = 0;
   double effectiveYoungsModulus = 0; ///< [Pa], 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; 0 when not given
   double effectiveShearModulus = 0;  ///< [Pa], 1/G* = (2-nu1)/G1 + (2-nu2)/G2
 };
@@ -31,7 +35,7 @@ struct EventGrains {
   std::vector<double*> a, b; ///< in the order of Law::grainQuantities()
 };
 
-class Law {
+class Law : public LawColumns {
 public:
   virtual ~Law() = default;
 
@@ -39,13 +43,15 @@ public:
   virtual int historySize() const { return 0; }
   /// Largest gap at which the law can act [m]; 0 for laws that act in contact alone. Sizes lists.
   virtual double range() const { return 0.0; }
-  /// Optional columns of the block that it reads; those that no law of a scene reads are left out.
-  enum Columns : unsigned { radii = 1, masses = 2, effectiveRadius = 4, effectiveMass = 8 };
+  /// Optional columns of the block that it reads, LawColumns.
   virtual unsigned reads() const { return radii | masses | effectiveRadius | effectiveMass; }
   /// Whether it reads the relative spin (wx, wy, wz) and writes couples, and whether it can turn grains at
   /// all.
   virtual bool readsSpin() const { return false; }
   virtual bool turnsGrains() const { return false; }
+  /// Whether slip and torque are to use the full radii as lever arms. Default: arms up to the contact point,
+  /// which add up to the distance of the centres and so keep angular momentum to round-off.
+  virtual bool fullRadiusArm() const { return false; }
   /// Names of per-grain conserved quantities (liquid, charge) that its events move.
   virtual std::vector<std::string> grainQuantities() const { return {}; }
 

@@ -6,8 +6,8 @@ namespace sandglass {
 
 const std::vector<LawKind>& lawKinds() {
   static const std::vector<LawKind> kinds{
-      linearNormalLaw(),      hertzNormalLaw(), noTangentialLaw(),          springTangentialLaw(),
-      mindlinTangentialLaw(), noRollingLaw(),   elasticPlasticRollingLaw(),
+      linearNormalLaw(),     waltonBraunNormalLaw(), hertzNormalLaw(), noTangentialLaw(),
+      springTangentialLaw(), mindlinTangentialLaw(), noRollingLaw(),   elasticPlasticRollingLaw(),
   };
   return kinds;
 }

@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 namespace sandglass {
 
 namespace {
+
+constexpr const char* addedName = "added"; ///< of laws that no scene names
 
 /// Mean grain mass of a material over the species made of it; 0 for a wall's material.
 double meanMass(const Scene& scene, const std::string& material) {
@@ -27,6 +30,35 @@ const ContactSpec* findContact(const Scene& scene, const std::string& a, const s
   for (const ContactSpec& c : scene.contacts)
     if ((c.first == a && c.second == b) || (c.first == b && c.second == a)) return &c;
   return nullptr;
+}
+
+/// Mass that every grain of a material has, computed as the solver does; 0 when they differ or are none.
+double oneMass(const Scene& scene, const Material& material) {
+  double mass = 0.0;
+  for (const Species& s : scene.species) {
+    if (s.material != material.name) continue;
+    const SizeRange range = sizeRange(scene, s);
+    const double r = 0.5 * range.smallest;
+    const double m = 4.0 / 3.0 * std::numbers::pi * r * r * r * material.density;
+    if (range.smallest != range.largest || (mass > 0.0 && m != mass)) return 0.0;
+    mass = m;
+  }
+  return mass;
+}
+
+/// Reduced mass of all contacts between a and b, 0 when they differ. A wall of a grain's material meets
+/// grains as another mass does.
+double uniformMass(const Scene& scene, const Material& a, const Material& b) {
+  const auto isWall = [&](const Material& m) {
+    return std::any_of(scene.walls.begin(), scene.walls.end(),
+                       [&](const WallSpec& w) { return w.material == m.name; });
+  };
+  const bool grainsA = meanMass(scene, a.name) > 0.0, grainsB = meanMass(scene, b.name) > 0.0;
+  const double ma = oneMass(scene, a), mb = oneMass(scene, b);
+  if (grainsA && grainsB)
+    return ma > 0.0 && mb > 0.0 && !isWall(a) && !isWall(b) ? 1.0 / (1.0 / ma + 1.0 / mb) : 0.0;
+  const double m = grainsA ? ma : mb;
+  return m > 0.0 ? 1.0 / (1.0 / m) : 0.0;
 }
 
 /// Everything about the pair but the parameters of a law.
@@ -60,12 +92,17 @@ const char* roleName(LawRole role) {
 
 } // namespace
 
-LawStack::LawStack(const Scene& scene) : materials_(static_cast<int>(scene.materials.size())) {
+LawStack::LawStack(const Scene& scene, bool anySize) : materials_(static_cast<int>(scene.materials.size())) {
+  for (const Material& m : scene.materials) {
+    const double mass = anySize ? 0.0 : oneMass(scene, m);
+    promisedInverseMass_.push_back(mass > 0.0 ? 1.0 / mass : 0.0);
+  }
   std::vector<const ContactSpec*> specs;
   for (const Material& a : scene.materials)
     for (const Material& b : scene.materials) {
       specs.push_back(findContact(scene, a.name, b.name));
       context_.types.push_back(pairType(scene, a, b));
+      if (!anySize) context_.types.back().uniformMass = uniformMass(scene, a, b);
       context_.types.back().used = context_.types.back().used && specs.back();
     }
   for (const LawRole role : {LawRole::normal, LawRole::tangential, LawRole::rolling}) {
@@ -123,7 +160,15 @@ void LawStack::apply(ContactBlock& block, bool couples) const {
 }
 
 void LawStack::add(std::shared_ptr<const Law> law) {
-  append(std::move(law), "added", LawRole::gap);
+  append(std::move(law), addedName, LawRole::gap);
+}
+
+void LawStack::allowAnySize(const Scene& scene) {
+  LawStack plain(scene, true);
+  for (const Entry& entry : entries_)
+    if (entry.name == addedName) plain.add(entry.law);
+  plain.width_ = width_;
+  *this = std::move(plain);
 }
 
 void LawStack::append(std::shared_ptr<const Law> law, std::string name, LawRole role) {
@@ -135,6 +180,7 @@ void LawStack::append(std::shared_ptr<const Law> law, std::string name, LawRole 
   range_ = std::max(range_, law->range());
   reads_ |= law->reads();
   turning_ = turning_ || law->turnsGrains();
+  fullRadiusArm_ = fullRadiusArm_ || law->fullRadiusArm();
   readsSpin_ = readsSpin_ || law->readsSpin();
   events_ = events_ || (role == LawRole::gap && law->historySize() > 0);
   for (const std::string& quantity : law->grainQuantities()) {

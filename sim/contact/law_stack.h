@@ -13,13 +13,21 @@ namespace sandglass {
 class LawStack {
 public:
   /// Throws InputError (a phrase) when laws contradict their parameters or each other.
-  explicit LawStack(const Scene& scene);
+  /// Scenes may promise one size for a material; `anySize` ignores that, for grains that break the promise.
+  explicit LawStack(const Scene& scene, bool anySize = false);
 
   /// Adds a law that no scene names; for programs and tests that bring their own.
   void add(std::shared_ptr<const Law> law);
 
   /// Runs a filled block through all laws, from zero forces. Events of gap laws stay in the block.
   void apply(ContactBlock& block, bool couples) const;
+
+  /// Whether a grain has the mass that PairType::uniformMass promised to the laws.
+  bool asPromised(int material, double inverseMass) const {
+    return promisedInverseMass_[material] == 0.0 || promisedInverseMass_[material] == inverseMass;
+  }
+  /// Takes the promise back: laws read each pair's mass from now on, with the same bits.
+  void allowAnySize(const Scene& scene);
 
   struct Entry {
     std::shared_ptr<const Law> law;
@@ -40,10 +48,11 @@ public:
   void useWidth(KernelWidth width) { width_ = width; }
   bool turning() const { return turning_; }
   bool readsSpin() const { return readsSpin_; }
+  bool fullRadiusArm() const { return fullRadiusArm_; } ///< Law::fullRadiusArm of any law
   bool hasEvents() const { return events_; }
   const std::vector<std::string>& quantityNames() const { return quantityNames_; }
-  /// Doubles written per pair: force; with friction also a torque; with couples those too.
-  int outputSize() const { return readsSpin_ ? 9 : turning_ ? 6 : 3; }
+  /// Quads written per pair: force; with friction also a torque; with couples those too.
+  int outputQuads() const { return readsSpin_ ? 3 : turning_ ? 2 : 1; }
 
 private:
   void append(std::shared_ptr<const Law> law, std::string name, LawRole role);
@@ -51,11 +60,12 @@ private:
   std::vector<Entry> entries_;
   LawContext context_;
   std::vector<std::string> quantityNames_;
+  std::vector<double> promisedInverseMass_; ///< [1/kg] by material; 0: none
   int materials_ = 0, history_ = 0;
   double range_ = 0.0;
   unsigned reads_ = 0;
   KernelWidth width_ = bestKernelWidth();
-  bool turning_ = false, readsSpin_ = false, events_ = false;
+  bool turning_ = false, readsSpin_ = false, fullRadiusArm_ = false, events_ = false;
 };
 
 } // namespace sandglass

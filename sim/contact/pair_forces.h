@@ -1,12 +1,13 @@
 #pragma once
-// One step of all pair contacts: from positions and velocities to forces per pair and new histories.
+// Pair contacts: from grain records to forces per pair and new histories, block by block.
 
 #include "sim/contact/law_stack.h"
+#include "sim/contact/pair_kernel.h"
 #include "sim/contact/pair_list.h"
 #include "sim/grains/grain_store.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace sandglass {
@@ -14,7 +15,7 @@ namespace sandglass {
 /// Birth or death of a pair under a gap law, applied after the force loop in the order of the keys.
 struct PairEvent {
   std::int64_t idA, idB, imageKey;
-  std::int32_t pair;
+  std::int64_t pair;
   std::int16_t law;
   ContactEvent event;
   bool torn = false; ///< history is to be erased afterwards: the pair has left the range of all laws
@@ -32,55 +33,62 @@ struct DeepestOverlap {
 
 class PairForces {
 public:
+  /// What one thread needs.
+  struct Scratch {
+    ContactBlock block;
+    PairColumns columns;
+    std::vector<PairEvent> events;
+    DeepestOverlap deepest;
+  };
+
   explicit PairForces(const LawStack& laws) : laws_(laws) {}
 
-  /// Evaluates every pair: writes PairList::output (force on a, torque over radius, couple) and history.
-  void step(const GrainStore& grains, PairList& list, double dt, Parallel& parallel,
-            std::vector<PairEvent>& events, DeepestOverlap& deepest) const;
+  /// Overlaps above this share of the smaller radius are reported.
+  void watchOverlap(double share, double smallestRadius);
 
-  /// Energy stored in all contacts [J]; changes nothing.
-  double storedEnergy(const GrainStore& grains, PairList& list) const;
+  /// Looks at grains and list anew; after each rebuild and each change of the number of grains.
+  void bind(GrainStore& grains, PairList& list);
+  const ParticleView& view() const { return view_; }
+  KernelWidth width() const { return laws_.width(); }
 
-  /// Calls visit(pair, block, c) for each pair in contact, with forces of the present state; changes nothing.
-  template <class Visit> void visitContacts(const GrainStore& grains, PairList& list, Visit&& visit) const;
+  /// Evaluates the pairs of a range that starts and ends at multiples of PairList::lane: outputs and, unless
+  /// `keepHistory`, histories.
+  void evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch) const;
 
-  /// Fills geometry and motion of the pairs in `index[0..count)`.
-  void fill(const GrainStore& grains, PairList& list, const std::int32_t* index, int count, double dt,
-            ContactBlock& block) const;
+  /// Energy stored in all contacts [J], with histories as the step of length dt would leave them.
+  double storedEnergy(double dt) const;
+
+  /// Calls visit(pair, block, c) for each pair in contact or in range, with the forces that the next step of
+  /// length dt begins with; changes nothing.
+  template <class Visit> void visitContacts(double dt, Visit&& visit) const;
 
 private:
-  template <bool periodic>
-  void range(const GrainStore& grains, PairList& list, double dt, std::int64_t first, std::int64_t last,
-             std::vector<PairEvent>& events, DeepestOverlap& deepest) const;
-  void flush(const GrainStore& grains, PairList& list, const std::int32_t* index, int count,
-             ContactBlock& block, std::vector<PairEvent>& events, DeepestOverlap& deepest) const;
+  void fillBlock(std::int64_t first, int count, double dt, ContactBlock& b, PairColumns& columns) const;
+  void applyLaws(std::int64_t first, Scratch& scratch) const;
+  void leaveRange(std::int64_t first, const double (*before)[ContactBlock::capacity], Scratch& scratch) const;
+  void reportOverlaps(std::int64_t first, Scratch& scratch) const;
 
   const LawStack& laws_;
+  const Kernel* kernel_ = nullptr;
+  ParticleView view_;
+  GrainStore* grains_ = nullptr;
+  PairList* list_ = nullptr;
+  double overlapShare_ = 1e300, overlapLength_ = 1e300;
 };
 
-/// Sums what each grain gets from its pairs, in partner order, into force and torque (added to what is
-/// there).
-void gatherPairForces(GrainStore& grains, const PairList& list, const LawStack& laws, std::int64_t first,
-                      std::int64_t last);
-
-template <class Visit>
-void PairForces::visitContacts(const GrainStore& grains, PairList& list, Visit&& visit) const {
+template <class Visit> void PairForces::visitContacts(double dt, Visit&& visit) const {
+  if (!list_) return;
   ContactBlock block;
-  std::int32_t index[ContactBlock::capacity];
-  int count = 0;
-  const auto flushAll = [&] {
-    fill(grains, list, index, count, 0.0, block);
+  PairColumns columns;
+  for (std::int64_t first = 0; first < list_->entries(); first += ContactBlock::capacity) {
+    const int count =
+        static_cast<int>(std::min<std::int64_t>(ContactBlock::capacity, list_->entries() - first));
+    fillBlock(first, count, dt, block, columns);
     laws_.apply(block, laws_.readsSpin());
+    if (block.oneType) std::fill_n(block.type, count, block.type[0]);
     for (int c = 0; c < count; ++c)
-      visit(static_cast<std::size_t>(index[c]), block, c);
-    count = 0;
-  };
-  for (std::size_t p = 0; p < list.size(); ++p) {
-    if (!list.live()[p]) continue;
-    index[count++] = static_cast<std::int32_t>(p);
-    if (count == ContactBlock::capacity) flushAll();
+      if (block.overlap[c] > -laws_.range() && !list_->isPadding(first + c)) visit(first + c, block, c);
   }
-  if (count) flushAll();
 }
 
 } // namespace sandglass

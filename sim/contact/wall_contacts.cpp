@@ -17,8 +17,8 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
         for (std::size_t w = 0; w < walls.size(); ++w) {
           if (!walls[w].active) continue;
           WallShape::Touches touches;
-          walls[w].shape->touches(grains.place[i].vec(), grains.place[i].w + range + grains.listed[i].w,
-                                  touches);
+          walls[w].touches(grains.place[i].vec(),
+                           grains.place[i].w + range + grains.listed[i].w + walls[w].allowance, touches);
           if (touches.count > 0)
             found[c].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
         }
@@ -55,6 +55,9 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
   feature_.assign(candidates_.size() * slots, -1);
   history_.assign(candidates_.size() * row, 0.0);
   result_.assign(candidates_.size() * 6, 0.0);
+  counting_ = std::any_of(walls.begin(), walls.end(), [](const SolverWall& w) { return w.counted; });
+  slipWork_.assign(counting_ ? candidates_.size() : 0, 0.0);
+  begun_.assign(slipWork_.size(), 0);
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     const Key key{ids_[k], candidates_[k].wall, 0};
     const auto it = std::lower_bound(old.begin(), old.end(), key);
@@ -69,12 +72,12 @@ int WallContacts::touches(const GrainStore& grains, const std::vector<SolverWall
   const Candidate& c = candidates_[candidate];
   if (!walls[c.wall].active) return 0;
   const Quad& place = grains.place[c.grain];
-  walls[c.wall].shape->touches(place.vec(), place.w + reach, out);
+  walls[c.wall].touches(place.vec(), place.w + reach, out);
   return out.count;
 }
 
-void WallContacts::matchHistories(std::size_t candidate, const WallShape::Touches& now,
-                                  double* histories) const {
+int WallContacts::matchHistories(std::size_t candidate, const WallShape::Touches& now,
+                                 double* histories) const {
   const int size = laws_.historySize();
   const std::int32_t* before = feature_.data() + candidate * slots;
   const double* kept = history_.data() + candidate * slots * size;
@@ -97,6 +100,7 @@ void WallContacts::matchHistories(std::size_t candidate, const WallShape::Touche
   for (int c = 0; c < now.count; ++c)
     for (int k = 0; k < size; ++k)
       histories[c * size + k] = source[c] < 0 ? 0.0 : kept[source[c] * size + k];
+  return static_cast<int>(std::count(source, source + now.count, -1));
 }
 
 void WallContacts::fillOne(const GrainStore& grains, const SolverWall& wall, std::int32_t i,
@@ -113,12 +117,14 @@ void WallContacts::fillOne(const GrainStore& grains, const SolverWall& wall, std
   b.inverseMassA[c] = v.w;
   b.inverseMassB[c] = 0.0;
   b.effectiveMass[c] = 1.0 / v.w;
-  const Vec3 velocity = v.vec();
+  Vec3 velocity = v.vec();
+  if (wall.motion) velocity -= wall.contactVelocity.at(x.vec() - touch.distance * n);
   const double vn = velocity.dot(n);
   Vec3 slip = velocity - vn * n;
   if (laws_.turning()) {
-    const Vec3 spin = grains.spin[i].vec();
-    slip -= touch.distance * spin.cross(n);
+    Vec3 spin = grains.spin(i);
+    slip -= (laws_.fullRadiusArm() ? x.w : touch.distance) * spin.cross(n);
+    if (wall.motion) spin -= wall.contactVelocity.spin;
     b.wx[c] = spin.x();
     b.wy[c] = spin.y();
     b.wz[c] = spin.z();
@@ -162,6 +168,9 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
               out[q] += f[q];
               out[3 + q] += t[q];
             }
+            if (counted(k, walls))
+              slipWork_[k] -= dt * (block.ftx[c] * block.vtx[c] + block.fty[c] * block.vty[c] +
+                                    block.ftz[c] * block.vtz[c]);
             worst.take(block.overlap[c] / block.radiusA[c], grains.id[candidates_[k].grain], -1,
                        candidates_[k].wall);
           }
@@ -172,12 +181,18 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
           const int count = touches(grains, walls, k, laws_.range(), now);
           std::fill_n(result_.data() + k * 6, 6, 0.0);
           std::int32_t* feature = feature_.data() + k * slots;
+          if (counting_) {
+            slipWork_[k] = 0.0;
+            begun_[k] = 0;
+          }
           if (count > 0) {
             if (block.size + count > ContactBlock::capacity) flush();
-            matchHistories(k, now, histories.data());
+            const int begun = matchHistories(k, now, histories.data());
+            if (counted(k, walls)) begun_[k] = begun;
             for (int c = 0; c < count; ++c) {
               owner[block.size] = static_cast<std::int32_t>(k);
-              distance[block.size] = now.at[c].distance;
+              distance[block.size] =
+                  laws_.fullRadiusArm() ? grains.place[candidates_[k].grain].w : now.at[c].distance;
               fillOne(grains, walls[candidates_[k].wall], candidates_[k].grain, now.at[c],
                       histories.data() + c * size, block, block.size);
               ++block.size;
@@ -192,19 +207,18 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
       });
 }
 
-void WallContacts::gather(GrainStore& grains, std::int64_t first, std::int64_t last) const {
+void WallContacts::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first,
+                         std::int64_t last) const {
+  if (candidates_.empty()) return;
   for (std::int64_t i = first; i < last; ++i)
     for (std::int32_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
       const double* out = result_.data() + static_cast<std::size_t>(k) * 6;
-      Quad& f = grains.force[i];
-      f.x += out[0];
-      f.y += out[1];
-      f.z += out[2];
+      double* to = sums.at[i - first];
+      for (int q = 0; q < 3; ++q)
+        to[q] += out[q];
       if (!grains.turning) continue;
-      Quad& t = grains.torque[i];
-      t.x += out[3];
-      t.y += out[4];
-      t.z += out[5];
+      for (int q = 0; q < 3; ++q)
+        to[4 + q] += grains.roll[i].w * out[3 + q];
     }
 }
 
@@ -217,6 +231,26 @@ void WallContacts::total(const GrainStore& grains, int wall, Vec3& force, Vec3& 
     force -= f;
     torque -= grains.place[candidates_[k].grain].vec().cross(f) +
               t; // moment about the origin, carried over to the contact
+  }
+}
+
+void WallContacts::tally(const GrainStore& grains, std::vector<SolverWall>& walls, double dt) const {
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    SolverWall& wall = walls[w];
+    if (wall.motion) {
+      Vec3 force, torque;
+      total(grains, static_cast<int>(w), force, torque);
+      const WallVelocity& v = wall.velocity;
+      const double power = -(force.dot(v.linear) + (torque - v.reference.cross(force)).dot(v.spin));
+      wall.tally.work += 0.5 * dt * (wall.tally.power + power);
+      wall.tally.power = power;
+    }
+    if (!wall.counted) continue;
+    for (std::size_t k = 0; k < candidates_.size(); ++k)
+      if (candidates_[k].wall == static_cast<std::int32_t>(w)) {
+        wall.tally.wearWork += slipWork_[k];
+        wall.tally.collisions += begun_[k];
+      }
   }
 }
 

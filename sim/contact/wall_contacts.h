@@ -3,6 +3,7 @@
 
 #include "sim/contact/law_stack.h"
 #include "sim/contact/pair_forces.h"
+#include "sim/contact/solver_wall.h"
 #include "sim/grains/grain_store.h"
 #include "sim/walls/wall_shape.h"
 
@@ -13,31 +14,28 @@
 
 namespace sandglass {
 
-/// A wall as the solver sees it.
-struct SolverWall {
-  std::string name;
-  std::shared_ptr<const WallShape> shape;
-  int material = 0;
-  bool active = true;
-};
-
 class WallContacts {
 public:
   explicit WallContacts(const LawStack& laws) : laws_(laws) {}
 
-  /// Lists grains within radius + range + allowed movement of an active wall. Histories are carried by (grain
-  /// id, wall).
+  /// Lists grains within radius + range + allowed movement of an active wall, its own movement too. Histories
+  /// are carried by (grain id, wall).
   void build(const GrainStore& grains, const std::vector<SolverWall>& walls, double margin,
              Parallel& parallel);
 
   void step(const GrainStore& grains, const std::vector<SolverWall>& walls, double dt, Parallel& parallel,
             DeepestOverlap& deepest);
 
-  /// Adds forces and torques to the grains in [first, last), in wall order.
-  void gather(GrainStore& grains, std::int64_t first, std::int64_t last) const;
+  /// Adds forces and torques over radius of the last step to the sums of the grains in [first, last), in
+  /// wall order.
+  void addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first, std::int64_t last) const;
 
   /// Force of the grains on wall w [N] and its torque about the origin [N m], of the last step.
   void total(const GrainStore& grains, int wall, Vec3& force, Vec3& torque) const;
+
+  /// After step(): adds to the walls' tallies what moving and counted walls have done in it. The work of
+  /// a step is dt times the mean of the powers at its ends, as leap-frog integration makes it.
+  void tally(const GrainStore& grains, std::vector<SolverWall>& walls, double dt) const;
 
   double storedEnergy(const GrainStore& grains, const std::vector<SolverWall>& walls) const;
 
@@ -63,10 +61,14 @@ private:
   /// Contacts of one candidate, each with the row of history that it goes on with.
   int touches(const GrainStore& grains, const std::vector<SolverWall>& walls, std::size_t candidate,
               double reach, WallShape::Touches& out) const;
+  bool counted(std::size_t candidate, const std::vector<SolverWall>& walls) const {
+    return counting_ && walls[candidates_[candidate].wall].counted;
+  }
   void fillOne(const GrainStore& grains, const SolverWall& wall, std::int32_t grain, const WallTouch& touch,
                const double* history, ContactBlock& block, int c) const;
-  /// Row of history that feature `f` goes on with: its own, or one whose feature has just ended.
-  void matchHistories(std::size_t candidate, const WallShape::Touches& now, double* histories) const;
+  /// Row of history that each contact goes on with: that of its feature, or one whose feature has just ended.
+  /// Returns how many contacts have none, and so begin.
+  int matchHistories(std::size_t candidate, const WallShape::Touches& now, double* histories) const;
 
   const LawStack& laws_;
   std::vector<Candidate> candidates_;
@@ -75,6 +77,9 @@ private:
   std::vector<std::int32_t> feature_; ///< slots per candidate; -1: empty
   std::vector<double> history_;       ///< slots x historySize per candidate
   std::vector<double> result_;        ///< force and torque on the grain, six per candidate
+  bool counting_ = false;             ///< some listed wall is counted
+  std::vector<double> slipWork_;      ///< [J] per candidate in the last step, where counted
+  std::vector<std::int32_t> begun_;   ///< contacts that began in it
 };
 
 template <class Visit>

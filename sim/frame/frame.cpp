@@ -74,7 +74,7 @@ std::vector<std::string> grainScalarNames(const Frame& frame) {
 std::string unitOf(const std::string& expression) {
   static const std::map<std::string, std::string> units{
       {"x", "m"}, {"y", "m"}, {"z", "m"}, {"speed", "m/s"}, {quantity::radius, "m"}, {quantity::mass, "kg"},
-      {quantity::velocity, "m/s"}, {quantity::spin, "rad/s"}, {quantity::force, "N"}};
+      {quantity::velocity, "m/s"}, {quantity::spin, "rad/s"}, {quantity::force, "N"}, {quantity::residenceTime, "s"}};
   std::string base = expression;
   if (base.size() > 2 && base.front() == '|' && base.back() == '|') base = base.substr(1, base.size() - 2);
   else if (base.size() > 2 && base[base.size() - 2] == '.') base = base.substr(0, base.size() - 2);

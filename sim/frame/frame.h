@@ -23,6 +23,8 @@ inline constexpr const char* species = "species";   ///< scalar, index into Fram
 inline constexpr const char* velocity = "velocity"; ///< vector [m/s]
 inline constexpr const char* spin = "spin";         ///< vector [rad/s]
 inline constexpr const char* force = "force";       ///< vector [N], all forces on the grain
+inline constexpr const char* residenceTime = "residence_time"; ///< scalar [s] since it entered or was put back
+inline constexpr const char* life = "life";         ///< scalar, how often an outlet has put it back
 } // namespace quantity
 
 /// The space of the scene. Where `periodic[k]` is false, lower/upper merely bound what is there.
@@ -34,36 +36,47 @@ struct Domain {
 /// A wall as it stands at the time of the Frame.
 struct FrameWall {
   std::string name;
-  std::shared_ptr<const WallShape> shape; ///< geometry at rest; never null
+  std::shared_ptr<const WallShape> shape; ///< geometry where it is now; never null
   bool active = true;                     ///< false once a stage has removed it (an opened gate)
-  Vec3 velocity = Vec3::Zero();           ///< [m/s]
+  Vec3 velocity = Vec3::Zero();           ///< [m/s] of the reference point
   Vec3 force = Vec3::Zero();              ///< [N], force of the grains on the wall
-  Vec3 torque = Vec3::Zero();             ///< [N m] about the origin
+  Vec3 torque = Vec3::Zero();             ///< [N m] about the reference point
+  Vec3 spin = Vec3::Zero();               ///< [rad/s]
+  /// [m] A point on the axis of a wall that turns; else the middle of the shape (0 along directions in which
+  /// it has no end), which moves with the wall.
+  Vec3 reference = Vec3::Zero();
+  bool moving = false;                                          ///< has a motion, even while it stands still
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity(); ///< from the scene's description to now
+  Vec3 translation = Vec3::Zero();                              ///< [m], applied after the rotation
+  double work = 0;     ///< [J] that the moving wall has done on the grains since the run began
+  double power = 0;    ///< [W] of it now
+  double wearWork = 0; ///< [J] of tangential forces along the slip; 0 unless a probe looks at the wall
+  std::int64_t collisions = 0; ///< contacts begun; 0 unless a probe looks at the wall
 };
 
 /// A contact between grain `a` and grain `b` (or wall `wall` when b < 0).
 struct FrameContact {
-  std::int64_t a = -1, b = -1;            ///< grain ids
-  int wall = -1;                          ///< index into Frame::walls, or -1
-  std::array<int, 3> image{0, 0, 0};      ///< periodic image of b
-  Vec3 point = Vec3::Zero();              ///< [m]
-  Vec3 normal = Vec3::Zero();             ///< unit, from b (or wall) to a
-  Vec3 force = Vec3::Zero();              ///< [N] on a
+  std::int64_t a = -1, b = -1;       ///< grain ids
+  int wall = -1;                     ///< index into Frame::walls, or -1
+  std::array<int, 3> image{0, 0, 0}; ///< periodic image of b
+  Vec3 point = Vec3::Zero();         ///< [m]
+  Vec3 normal = Vec3::Zero();        ///< unit, from b (or wall) to a
+  Vec3 force = Vec3::Zero();         ///< [N] on a
 };
 
 struct Frame {
-  double time = 0;                          ///< [s]
+  double time = 0; ///< [s]
   std::int64_t step = 0;
-  std::string stage;                        ///< name of the stage it was taken in; may be empty
-  bool persistentIds = true;                ///< whether an id means the same grain in another frame
-  std::vector<std::int64_t> id;             ///< ascending for frames of our own solvers
-  std::vector<Vec3> position;               ///< [m]; inside the domain along periodic directions
+  std::string stage;                                  ///< name of the stage it was taken in; may be empty
+  bool persistentIds = true;                          ///< whether an id means the same grain in another frame
+  std::vector<std::int64_t> id;                       ///< ascending for frames of our own solvers
+  std::vector<Vec3> position;                         ///< [m]; inside the domain along periodic directions
   std::map<std::string, std::vector<double>> scalars; ///< one value per grain each
   std::map<std::string, std::vector<Vec3>> vectors;   ///< one vector per grain each
   std::vector<std::string> speciesNames;
   Domain domain;
   std::vector<FrameWall> walls;
-  std::vector<FrameContact> contacts;       ///< empty unless asked for
+  std::vector<FrameContact> contacts;            ///< empty unless asked for
   std::map<std::string, std::string> provenance; ///< scene hash, version, seed, solver, accuracy, step size
 
   std::size_t size() const { return position.size(); }

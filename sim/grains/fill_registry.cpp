@@ -98,7 +98,12 @@ const std::vector<ParameterSpec> rainParameters{
      .optional = true,
      .minimum = 0,
      .openMinimum = true},
-    {.name = "number", .type = integer, .unit = "1", .description = "how many grains in all", .minimum = 1},
+    {.name = "number",
+     .type = integer,
+     .unit = "1",
+     .description = "how many grains in all; without, it rains as long as the stage lasts",
+     .optional = true,
+     .minimum = 1},
     velocity,
     velocitySpread,
     spinSpread};

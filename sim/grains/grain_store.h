@@ -1,8 +1,10 @@
 #pragma once
 // The grains of a running solver, in storage order (by cell, so that neighbours in space are neighbours in
-// memory). What a scene does not use stays empty: no spin where nothing turns grains, no image counters
-// without periodic directions.
+// memory). What the particle loop reads of a grain stands in one record: two quads, or three where grains
+// turn. What a scene does not use stays empty: no spin where nothing turns grains, no image counters without
+// periodic directions.
 
+#include "sim/base/parallel.h"
 #include "sim/base/vec.h"
 
 #include <array>
@@ -18,19 +20,38 @@ struct alignas(32) Quad {
   Vec3 vec() const { return {x, y, z}; }
 };
 
-struct GrainStore {
-  bool turning = false; ///< spins and torques are kept
+/// One quad of every record.
+class QuadColumn {
+public:
+  QuadColumn() = default;
+  QuadColumn(Quad* first, int stride) : first_(first), stride_(stride) {}
+  Quad& operator[](std::size_t i) const { return first_[i * stride_]; }
+
+private:
+  Quad* first_ = nullptr;
+  std::size_t stride_ = 0;
+};
+
+class GrainStore {
+public:
+  GrainStore() = default;
+  GrainStore(GrainStore&&) = default; // records do not move, so columns stay
+  GrainStore(const GrainStore&) = delete;
+  GrainStore& operator=(const GrainStore&) = delete;
+
+  /// Says what is kept; before the first grain comes.
+  void keep(bool turning, bool imaged);
+
+  bool turning = false; ///< spins are kept
   bool imaged = false;  ///< image counters are kept
 
-  std::vector<Quad> place;  ///< position [m], radius [m]
-  std::vector<Quad> motion; ///< velocity [m/s], 1/mass [1/kg]
-  std::vector<Quad> force;  ///< [N]
-  std::vector<Quad> spin;   ///< [rad/s], 1/inertia [1/(kg m^2)]; when turning
-  std::vector<Quad> torque; ///< [N m]; when turning
+  QuadColumn place;  ///< position [m], radius [m]
+  QuadColumn motion; ///< velocity [m/s], 1/mass [1/kg]
+  QuadColumn roll;   ///< radius times spin [m/s], 1/radius [1/m]; when turning
   std::vector<Quad> listed; ///< position when the list was built, and how far the grain may move from it [m]
   std::vector<std::int64_t> id;
   std::vector<std::int16_t> species;
-  std::vector<std::uint8_t> material;
+  std::vector<std::uint8_t> material; ///< two more at the end, for the phantoms
   std::vector<std::array<std::int32_t, 3>>
       image; ///< how often a grain left through its upper minus lower side
   std::vector<std::string> quantityNames;
@@ -38,13 +59,26 @@ struct GrainStore {
 
   std::size_t size() const { return id.size(); }
   double mass(std::size_t i) const { return 1.0 / motion[i].w; }
+  Vec3 spin(std::size_t i) const { return roll[i].w * roll[i].vec(); } ///< [rad/s]
+  /// Moment of inertia of a sphere [kg m^2].
+  double inertia(std::size_t i) const { return 0.4 * place[i].w * place[i].w / motion[i].w; }
 
-  /// New storage order: grain k becomes what was grain order[k]. A shorter `order` drops grains.
-  void reorder(const std::vector<std::int32_t>& order);
+  int quadsPerRecord() const { return turning ? 3 : 2; }
+  /// All records, and behind them two phantoms far apart, which pad lists of pairs and touch nobody.
+  std::vector<Quad>& records() { return records_; }
+  const std::vector<Quad>& records() const { return records_; }
+  /// Takes records as a checkpoint kept them.
+  void setRecords(std::vector<Quad> records);
+
+  /// Keeps the grains listed in `order` (storage indices), in that order.
+  void reorder(const std::vector<std::int32_t>& order, Parallel& parallel);
   void resize(std::size_t n);
-
-  /// Bytes that one grain takes here.
   std::size_t bytesPerGrain() const;
+
+private:
+  void placePhantoms();
+
+  std::vector<Quad> records_;
 };
 
 } // namespace sandglass

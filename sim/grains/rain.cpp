@@ -3,8 +3,11 @@
 #include "sim/grains/mixture.h"
 #include "sim/grains/open_space.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sandglass {
 
@@ -16,15 +19,15 @@ class RainFill {
 public:
   RainFill(const Scene& scene, const FillSpec& fill)
       : scene_(scene), parameters_(fill.how.parameters), mixture_(scene_, fill),
-        region_(parameters_, scene_.domain), open_(scene_, fill.stage),
-        total_(parameters_.integer("number")) {
+        region_(parameters_, scene_.domain), open_(scene_, fill.stage), endless_(!parameters_.has("number")),
+        total_(endless_ ? std::numeric_limits<std::int64_t>::max() : parameters_.integer("number")) {
     rate_ = parameters_.has("rate") ? parameters_.number("rate")
                                     : parameters_.number("mass_rate") / mixture_.meanMass();
   }
 
   void due(double time, std::int64_t& nextId, const std::function<bool(const Vec3&, double)>& isFree,
            std::vector<GrainSeed>& grains) {
-    const auto wanted = static_cast<std::int64_t>(std::min(rate_ * time, static_cast<double>(total_)));
+    const std::int64_t wanted = wantedAt(time);
     while (placed_ < wanted) {
       GrainSeed g = mixture_.drawOne(scene_.seed, nextId);
       if (!findRoom(g, isFree, grains)) {
@@ -40,9 +43,27 @@ public:
   }
 
   bool finished() const { return placed_ >= total_; }
+  bool endless() const { return endless_; }
+  std::string shortfall(double time) const {
+    const std::int64_t wanted = wantedAt(time);
+    if (placed_ < wanted)
+      return fmt::format("rain: only {} of the {} grains due by now found room; make its region larger or "
+                         "lower the rate",
+                         placed_, wanted);
+    if (!endless_ && placed_ < total_)
+      return fmt::format("rain: the stage ended when {} of its {} grains had come; raise the rate or let the "
+                         "stage last longer",
+                         placed_, total_);
+    return "";
+  }
+  double rate() const { return rate_; } ///< [1/s]
   std::int64_t placed_ = 0, failures_ = 0;
 
 private:
+  std::int64_t wantedAt(double time) const {
+    return static_cast<std::int64_t>(std::min({rate_ * time, static_cast<double>(total_), 9e18}));
+  }
+
   bool findRoom(GrainSeed& g, const std::function<bool(const Vec3&, double)>& isFree,
                 const std::vector<GrainSeed>& fresh) const {
     constexpr int tries = 50;
@@ -76,6 +97,7 @@ private:
   Mixture mixture_;
   FillRegion region_;
   OpenSpace open_;
+  bool endless_;
   std::int64_t total_;
   double rate_;
 };
@@ -94,6 +116,17 @@ public:
 
   bool finished() const override {
     return std::all_of(fills_.begin(), fills_.end(), [](const auto& fill) { return fill->finished(); });
+  }
+
+  bool endless() const override {
+    return std::any_of(fills_.begin(), fills_.end(), [](const auto& fill) { return fill->endless(); });
+  }
+
+  std::vector<std::string> shortfall(double timeInStage) const override {
+    std::vector<std::string> all;
+    for (const auto& fill : fills_)
+      if (auto sentence = fill->shortfall(timeInStage); !sentence.empty()) all.push_back(std::move(sentence));
+    return all;
   }
 
   std::vector<std::int64_t> state() const override {
@@ -117,6 +150,16 @@ private:
 };
 
 } // namespace
+
+std::int64_t rainCount(const Scene& scene, const FillSpec& fill) {
+  const Parameters& p = fill.how.parameters;
+  if (p.has("number")) return p.integer("number");
+  for (const auto& stage : scene.stages)
+    if (stage.name == fill.stage)
+      return static_cast<std::int64_t>(
+          std::min(RainFill(scene, fill).rate() * stage.duration.value_or(0), 9e18));
+  return 0;
+}
 
 std::unique_ptr<Rain> makeRain(const Scene& scene, const std::string& stage) {
   std::vector<std::unique_ptr<RainFill>> fills;

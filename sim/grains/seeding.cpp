@@ -76,7 +76,7 @@ std::int64_t expectedGrains(const Scene& scene) {
     if (fill.how.kind == "random")
       count += randomFillCount(scene, fill);
     else if (fill.how.kind == "rain")
-      count += p.integer("number");
+      count += rainCount(scene, fill);
     else if (fill.how.kind == "list")
       count += static_cast<std::int64_t>(p.texts("species").size());
     else {

@@ -14,11 +14,21 @@ namespace sandglass {
 
 struct GrainSeed {
   std::int64_t id = 0;
-  int species = 0;              ///< index into Scene::species
-  double radius = 0;            ///< [m]
-  Vec3 position = Vec3::Zero(); ///< [m]
-  Vec3 velocity = Vec3::Zero(); ///< [m/s]
-  Vec3 spin = Vec3::Zero();     ///< [rad/s]
+  int species = 0;                  ///< index into Scene::species
+  double radius = 0;                ///< [m]
+  Vec3 position = Vec3::Zero();     ///< [m]
+  Vec3 velocity = Vec3::Zero();     ///< [m/s]
+  Vec3 spin = Vec3::Zero();         ///< [rad/s]
+  std::int32_t life = 0;            ///< how often an outlet has put it back, where outlets do
+  std::vector<double> quantities{}; ///< conserved quantities of the laws; empty: zero
+};
+
+/// A grain as it passed an outlet.
+struct LeftGrain {
+  GrainSeed grain;
+  int outlet = 0;       ///< index into Scene::outlets
+  double time = 0;      ///< [s]
+  double residence = 0; ///< [s] since it entered or was put back
 };
 
 /// Grains placed at once, before the first step of their stage, by all fillings of `stage` but "rain".
@@ -36,7 +46,10 @@ public:
   /// a sphere there touches nothing. Those that find none are tried again next time.
   virtual std::vector<GrainSeed> due(double timeInStage, std::int64_t firstId,
                                      const std::function<bool(const Vec3&, double)>& isFree) = 0;
-  virtual bool finished() const = 0;
+  virtual bool finished() const = 0; ///< never for rain without a number
+  virtual bool endless() const = 0;  ///< whether some of it has no number
+  /// What has not been delivered by the end of the stage, a sentence for each filling that lags.
+  virtual std::vector<std::string> shortfall(double timeInStage) const = 0;
   /// State for checkpoints: counts of grains placed so far.
   virtual std::vector<std::int64_t> state() const = 0;
   virtual void setState(const std::vector<std::int64_t>& state) = 0;
@@ -51,6 +64,9 @@ struct SizeRange {
   double meanMass = 0;                                ///< [kg]
 };
 SizeRange sizeRange(const Scene& scene, const Species& species);
+
+/// Number of grains that a rain will bring: as it says, or rate times duration; 0 when the stage has none.
+std::int64_t rainCount(const Scene& scene, const FillSpec& fill);
 
 /// Number of grains that the whole scene will bring in, as far as it can be known beforehand.
 std::int64_t expectedGrains(const Scene& scene);

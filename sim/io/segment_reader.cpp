@@ -1,6 +1,8 @@
 #include "sim/base/error.h"
 #include "sim/io/frame_segment.h"
 #include "sim/io/hdf5.h"
+#include "sim/io/wall_columns.h"
+#include "sim/walls/posed_shape.h"
 
 #include <fmt/format.h>
 
@@ -96,14 +98,36 @@ struct SegmentReader::Impl {
     const hsize_t n = wallNames.size();
     if (n == 0) return;
     const auto active = readRows<std::uint8_t>(ownSteps, "wallActive", index, 1, n);
-    const auto vectors = [&](const char* name) {
-      return toVectors(readRows<double>(ownSteps, name, index, 1, 3 * n));
-    };
-    const auto velocity = vectors("wallVelocity"), force = vectors("wallForce"),
-               torque = vectors("wallTorque");
-    for (std::size_t w = 0; w < n; ++w)
-      frame.walls.push_back(
-          {wallNames[w], shapes(wallNames[w]), active[w] != 0, velocity[w], force[w], torque[w]});
+    frame.walls.resize(n);
+    for (std::size_t w = 0; w < n; ++w) {
+      frame.walls[w].name = wallNames[w];
+      frame.walls[w].shape = shapes(wallNames[w]);
+      frame.walls[w].active = active[w] != 0;
+    }
+    for (const auto& [name, member] : wallVectorNames) {
+      if (!exists(ownSteps, name)) continue; // files of before walls could move lack some
+      const auto vectors = toVectors(readRows<double>(ownSteps, name, index, 1, 3 * n));
+      for (std::size_t w = 0; w < n; ++w)
+        frame.walls[w].*member = vectors[w];
+    }
+    if (!exists(ownSteps, wallRotationName)) return;
+    const auto rotation = readRows<double>(ownSteps, wallRotationName, index, 1, 4 * n);
+    const auto sums = readRows<double>(ownSteps, wallSumsName, index, 1, 5 * n);
+    for (std::size_t w = 0; w < n; ++w) {
+      FrameWall& wall = frame.walls[w];
+      const double *q = &rotation[4 * w], *sum = &sums[5 * w];
+      wall.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+      wall.moving = sum[0] != 0.0;
+      wall.work = sum[1];
+      wall.power = sum[2];
+      wall.wearWork = sum[3];
+      wall.collisions = static_cast<std::int64_t>(sum[4]);
+      WallPose pose;
+      pose.translation = wall.translation;
+      pose.turned = !(q[0] == 1.0 && q[1] == 0.0 && q[2] == 0.0 && q[3] == 0.0);
+      if (pose.turned) pose.rotation = wall.rotation.normalized().toRotationMatrix();
+      wall.shape = posed(wall.shape, pose);
+    }
   }
 
   void loadContacts(Frame& frame, std::size_t index) const {

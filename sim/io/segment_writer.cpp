@@ -1,6 +1,7 @@
 #include "sim/base/error.h"
 #include "sim/io/frame_segment.h"
 #include "sim/io/hdf5.h"
+#include "sim/io/wall_columns.h"
 
 #include <fmt/format.h>
 
@@ -57,7 +58,9 @@ struct SegmentWriter::Impl {
   };
   std::array<Cells, 4> cells;
   std::map<std::string, Column> data, dataOffsets;
-  Column step, stage, lower, upper, contactCount, wallActive, wallVelocity, wallForce, wallTorque;
+  Column step, stage, lower, upper, contactCount, wallActive;
+  std::map<std::string, Column> wallVectors; ///< three numbers a wall
+  Column wallRotation, wallSums;
   Handle contactGroup;
   std::map<std::string, Column> contacts;
   std::vector<std::string> stageNames; ///< written at the end, when all are known
@@ -134,9 +137,10 @@ struct SegmentWriter::Impl {
     const hsize_t n = signature.walls.size();
     if (n == 0) return; // HDF5 has no chunks of zero width
     wallActive = Column(ownSteps, "wallActive", H5T_NATIVE_UINT8, {n}, stepRows);
-    wallVelocity = Column(ownSteps, "wallVelocity", H5T_NATIVE_DOUBLE, {n, 3}, stepRows);
-    wallForce = Column(ownSteps, "wallForce", H5T_NATIVE_DOUBLE, {n, 3}, stepRows);
-    wallTorque = Column(ownSteps, "wallTorque", H5T_NATIVE_DOUBLE, {n, 3}, stepRows);
+    for (const auto& [name, member] : wallVectorNames)
+      wallVectors[name] = Column(ownSteps, name, H5T_NATIVE_DOUBLE, {n, 3}, stepRows);
+    wallRotation = Column(ownSteps, wallRotationName, H5T_NATIVE_DOUBLE, {n, 4}, stepRows);
+    wallSums = Column(ownSteps, wallSumsName, H5T_NATIVE_DOUBLE, {n, 5}, stepRows);
   }
 
   void appendVtk(const Frame& frame) {
@@ -184,20 +188,22 @@ struct SegmentWriter::Impl {
     contactCount.append(&contactsNow, 1);
     if (!frame.walls.empty()) {
       std::vector<std::uint8_t> active;
-      std::vector<double> velocity, force, torque;
-      const auto put = [](std::vector<double>& list, const Vec3& v) {
-        list.insert(list.end(), v.data(), v.data() + 3);
-      };
+      std::vector<double> rotation, sums;
+      std::map<std::string, std::vector<double>> vectors;
       for (const auto& wall : frame.walls) {
         active.push_back(wall.active);
-        put(velocity, wall.velocity);
-        put(force, wall.force);
-        put(torque, wall.torque);
+        for (const auto& [name, member] : wallVectorNames)
+          vectors[name].insert(vectors[name].end(), (wall.*member).data(), (wall.*member).data() + 3);
+        const auto& q = wall.rotation;
+        rotation.insert(rotation.end(), {q.w(), q.x(), q.y(), q.z()});
+        sums.insert(sums.end(), {wall.moving ? 1.0 : 0.0, wall.work, wall.power, wall.wearWork,
+                                 static_cast<double>(wall.collisions)});
       }
       wallActive.append(active.data(), 1);
-      wallVelocity.append(velocity.data(), 1);
-      wallForce.append(force.data(), 1);
-      wallTorque.append(torque.data(), 1);
+      for (auto& [name, values] : vectors)
+        wallVectors[name].append(values.data(), 1);
+      wallRotation.append(rotation.data(), 1);
+      wallSums.append(sums.data(), 1);
     }
     if (contactsNow > 0) appendContacts(frame.contacts);
   }

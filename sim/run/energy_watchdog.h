@@ -5,10 +5,11 @@
 // with a grain through an outlet must not look like a gain, so potential energy is measured from the lowest
 // corner of the domain, where no grain's is negative. A step that is too long shows as growth within a few
 // hundred steps, and a slow leak as growth over the start; both are compared with a margin that lets the
-// energy stored in tangential and rolling springs, which solvers need not report, come back.
+// energy stored in tangential and rolling springs, which solvers need not report, come back. What moving
+// walls put in is known and taken off; the margin grows with what they have put in lately.
 //
 // Off where the sum is not bounded by what came in: gravity along a periodic direction, gap laws (whose
-// potential is not in Energies), moving walls.
+// potential is not in Energies).
 
 #include "sim/scene/scene.h"
 #include "sim/solvers/solver.h"
@@ -39,7 +40,13 @@ private:
   double lowestPotential_ = 0; ///< [J/kg]
   double negligible_ = 0;      ///< [J/kg], round-off of the potential energy
   double ever_ = 0;            ///< [J], all that came in
-  std::vector<double> recent_; ///< [J], the last checks, raised by what came in since
+  /// One check: energies in J, raised by what came in since.
+  struct Check {
+    double energy = 0; ///< mechanical
+    double work = 0;   ///< of moving walls, up to then
+  };
+  std::vector<Check> recent_; ///< the last checks
+  double largestWork_ = 0;    ///< [J] of moving walls, so far
 };
 
 } // namespace sandglass

@@ -16,29 +16,43 @@ FlowRateProbe::FlowRateProbe(const Parameters& parameters, const Scene& scene)
     if (scene.domain.periodic[k] && period > 0) halfPeriod_ = std::min(halfPeriod_, period / 2);
   }
   const double size = (scene.domain.upper - scene.domain.lower).norm();
-  for (const auto& outlet : scene.outlets)
+  for (const auto& outlet : scene.outlets) {
     outletBeyond_ = outletBeyond_ || (outlet.point - point_).dot(normal_) >= -1e-9 * size;
+    if (!outlet.recycle) continue;
+    const Vec3 middle = 0.5 * (outlet.recycle->lower + outlet.recycle->upper);
+    entersBefore_ = entersBefore_ || (middle - point_).dot(normal_) < 0;
+  }
 }
 
 std::vector<double> FlowRateProbe::sample(const Solver& solver) {
   std::vector<Seen> now;
   for (const auto& grain : solver.present())
-    now.push_back({grain.id, (grain.position - point_).dot(normal_), grainMass(scene_, grain)});
+    now.push_back({grain.id, (grain.position - point_).dot(normal_), grainMass(scene_, grain), grain.life});
   std::sort(now.begin(), now.end(), [](const Seen& a, const Seen& b) { return a.id < b.id; });
 
+  const auto leaves = [&](double distance) { return distance < 0 && outletBeyond_ ? 1 : 0; };
+  const auto entersAndCrosses = [&](const Seen& s) { return entersBefore_ && s.distance >= 0 ? 1 : 0; };
   double crossed = 0;
   auto next = now.begin();
   for (const auto& before : last_) {
-    while (next != now.end() && next->id < before.id)
+    for (; next != now.end() && next->id < before.id; ++next)
+      if (next->life > 0) crossed += next->mass * entersAndCrosses(*next); // had waited to be put back
+    if (next != now.end() && next->id == before.id && next->life > before.life) {
+      const auto whole = static_cast<double>(next->life - before.life - 1); // lives in between
+      crossed += before.mass * (leaves(before.distance) + whole * (entersBefore_ && outletBeyond_ ? 1 : 0) +
+                                entersAndCrosses(*next));
       ++next;
-    if (next != now.end() && next->id == before.id) {
-      if ((before.distance < 0) == (next->distance < 0)) continue;
-      if (std::abs(next->distance - before.distance) > halfPeriod_) continue;
+    } else if (next != now.end() && next->id == before.id) {
+      const Seen& after = *next++;
+      if ((before.distance < 0) == (after.distance < 0)) continue;
+      if (std::abs(after.distance - before.distance) > halfPeriod_) continue;
       crossed += before.distance < 0 ? before.mass : -before.mass;
-    } else if (before.distance < 0 && outletBeyond_) {
-      crossed += before.mass;
+    } else {
+      crossed += before.mass * leaves(before.distance);
     }
   }
+  for (; next != now.end(); ++next)
+    if (next->life > 0) crossed += next->mass * entersAndCrosses(*next);
   const double time = solver.time();
   const double rate = lastTime_ >= 0 && time > lastTime_ ? crossed / (time - lastTime_) : 0;
   total_ += crossed;

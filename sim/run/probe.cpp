@@ -47,11 +47,16 @@ private:
 class WallForceProbe final : public Probe {
 public:
   explicit WallForceProbe(const Parameters& p) : wall_(p.text("wall")) {}
-  std::vector<std::string> values() const override { return {"force.x", "force.y", "force.z"}; }
+  std::vector<std::string> values() const override {
+    return {"force.x",  "force.y", "force.z", "torque.x",  "torque.y",
+            "torque.z", "power",   "work",    "wear_work", "collisions"};
+  }
   std::vector<double> sample(const Solver& solver) override {
     for (const auto& wall : solver.walls())
-      if (wall.name == wall_) return {wall.force.x(), wall.force.y(), wall.force.z()};
-    return {0, 0, 0}; // a solver may drop a wall once a stage has removed it
+      if (wall.name == wall_)
+        return {wall.force.x(),  wall.force.y(), wall.force.z(), wall.torque.x(), wall.torque.y(),
+                wall.torque.z(), wall.power,     wall.work,      wall.wearWork,   double(wall.collisions)};
+    return std::vector<double>(values().size()); // a solver may drop a wall once a stage has removed it
   }
 
 private:

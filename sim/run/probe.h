@@ -29,7 +29,11 @@ public:
 ///   flow_rate       rate [kg/s] through the plane (point, normal), mean since the last sample, and mass
 ///   [kg],
 ///                   its sum; grains that left count when an outlet lies on the plane or beyond it
-///   wall_force      force.x, force.y, force.z [N] of the grains on `wall`
+///   wall_force      of `wall`: force.x, force.y, force.z [N] of the grains on it; torque.x ... [N m] about
+///   its
+///                   reference point (FrameWall); power [W] and work [J] that it does on the grains by
+///                   moving; wear_work [J] of the tangential forces along the slip; collisions, contacts
+///                   begun so far
 /// Throws InputError for a kind that is none of these.
 std::unique_ptr<Probe> makeProbe(const ProbeSpec& spec, const Scene& scene);
 

@@ -205,6 +205,9 @@ RunOutcome Run::loop() {
     if (paused_ && steps < allowed) single_ += static_cast<int>(allowed - steps);
     run.advance(steps);
     shown = false;
+    const auto left = solver.takeLeft();
+    recorder.left(left, solver.stepSize());
+    stages.left(left);
 
     stages.look();
     recorder.sample(solver, stages.done(), onSample);

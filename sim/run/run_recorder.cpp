@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 
 namespace sandglass {
@@ -26,7 +27,7 @@ bool holdsRun(const fs::path& folder) {
 
 /// Deletes what a run writes, nothing else.
 void removeRun(const fs::path& folder) {
-  for (const char* name : {"frames", "checkpoints", "scene.toml", "series.csv", "log.txt"})
+  for (const char* name : {"frames", "checkpoints", "scene.toml", "series.csv", "discharged.csv", "log.txt"})
     fs::remove_all(folder / name);
 }
 
@@ -113,6 +114,12 @@ void RunRecorder::open() {
     for (const auto& value : entry.probe->values())
       columns.push_back(entry.name + "." + value);
   series_.emplace(folder_ / "series.csv", columns, seriesBytes_);
+  const auto& outlets = scene_.outlets;
+  if (std::any_of(outlets.begin(), outlets.end(), [](const OutletSpec& o) { return o.record; }))
+    discharged_.emplace(folder_ / "discharged.csv",
+                        std::vector<std::string>{"id", "life", "outlet", "species", "diameter",
+                                                 "residence_time", "x", "y", "z", "vx", "vy", "vz"},
+                        dischargedBytes_);
   queue_.emplace(makeFrameWriter(folder_, scene_));
 }
 
@@ -143,6 +150,26 @@ void RunRecorder::sample(const Solver& solver, bool last,
   if (series_ && !row.empty()) series_->row(solver.time(), step, row);
 }
 
+void RunRecorder::left(const std::vector<LeftGrain>& grains, double stepSize) {
+  if (!discharged_) return;
+  for (const auto& [g, outlet, time, residence] : grains) {
+    if (!scene_.outlets[outlet].record) continue;
+    discharged_->row(time, std::llround(time / stepSize),
+                     {{"id", static_cast<double>(g.id)},
+                      {"life", g.life},
+                      {"outlet", outlet},
+                      {"species", g.species},
+                      {"diameter", 2 * g.radius},
+                      {"residence_time", residence},
+                      {"x", g.position.x()},
+                      {"y", g.position.y()},
+                      {"z", g.position.z()},
+                      {"vx", g.velocity.x()},
+                      {"vy", g.velocity.y()},
+                      {"vz", g.velocity.z()}});
+  }
+}
+
 void RunRecorder::write(FramePtr frame) {
   lastFrame_ = frame->step;
   ++frameCount_;
@@ -155,8 +182,9 @@ void RunRecorder::checkpoint(Solver& solver, Solver::State runState) {
   const auto segments = segmentFiles(folder_ / "frames");
   segments_ = segments.empty() ? 0 : segmentNumber(segments.back()) + 1;
   seriesBytes_ = series_->sync();
+  if (discharged_) dischargedBytes_ = discharged_->sync();
   ByteWriter out;
-  out << lastFrame_ << lastSample_ << frameCount_ << segments_ << seriesBytes_;
+  out << lastFrame_ << lastSample_ << frameCount_ << segments_ << seriesBytes_ << dischargedBytes_;
   runState[stateKey] = out.take();
   for (const auto& entry : probes_)
     runState["probe/" + entry.name] = entry.probe->save();
@@ -175,7 +203,8 @@ void RunRecorder::load(const Solver::State& state) {
                       lastCheckpoint_.string(), key));
     return it->second;
   };
-  ByteReader(entry(stateKey)) >> lastFrame_ >> lastSample_ >> frameCount_ >> segments_ >> seriesBytes_;
+  ByteReader(entry(stateKey)) >> lastFrame_ >> lastSample_ >> frameCount_ >> segments_ >> seriesBytes_ >>
+      dischargedBytes_;
   for (auto& probe : probes_)
     probe.probe->load(entry("probe/" + probe.name));
 }

@@ -34,6 +34,8 @@ public:
 
   /// Samples the probes that are due (all of them at the `last` step), once a step.
   void sample(const Solver& solver, bool last, const std::function<void(const ProbeSample&)>& onSample);
+  /// Rows of discharged.csv for those that passed an outlet which records.
+  void left(const std::vector<LeftGrain>& grains, double stepSize);
   /// Writes a frame unless this step has one already; false then.
   bool needsFrame(std::int64_t step) const { return step != lastFrame_; }
   void write(FramePtr frame);
@@ -63,12 +65,12 @@ private:
   std::vector<Entry> probes_;
   std::optional<FolderLock> lock_;
   std::optional<CheckpointStore> store_;
-  std::optional<SeriesWriter> series_;
+  std::optional<SeriesWriter> series_, discharged_;
   std::optional<FrameQueue> queue_;
   std::filesystem::path lastCheckpoint_;
   bool resume_ = false;
   std::int64_t lastFrame_ = -1, lastSample_ = -1; ///< steps
-  std::uint64_t frameCount_ = 0, segments_ = 0, seriesBytes_ = 0;
+  std::uint64_t frameCount_ = 0, segments_ = 0, seriesBytes_ = 0, dischargedBytes_ = 0;
 };
 
 /// Interval [s] of checkpoints when the scene leaves it open: twenty in a run whose length is known.

@@ -20,13 +20,15 @@ std::int64_t stepsIn(double duration, double stepSize) {
 } // namespace
 
 StageControl::StageControl(const Scene& scene, Solver& solver, Log log)
-    : scene_(scene), solver_(solver), log_(std::move(log)), watchdog_(scene) {}
+    : scene_(scene), solver_(solver), log_(std::move(log)), watchdog_(scene), recycling_(scene) {}
 
 void StageControl::begin() {
   if (begun_ || done()) return;
   const StageSpec& stage = scene_.stages[stage_];
   for (const auto& wall : stage.removeWalls)
     solver_.removeWall(wall);
+  solver_.setDrag(stage.drag.value_or(0));
+  solver_.beginStage(stage.name);
   const double before = solver_.energies().total();
   const auto grains = placeGrains(scene_, stage.name, solver_.nextId(), solver_.present(), log_);
   if (!grains.empty()) {
@@ -38,7 +40,8 @@ void StageControl::begin() {
   start_ = solver_.step();
   starts_.push_back(solver_.time());
   massAtStart_ = solver_.flow().massDischarged;
-  grainsAtStart_ = static_cast<std::int64_t>(solver_.grains());
+  grainsAtStart_ = static_cast<std::int64_t>(solver_.grains() + recycling_.waiting());
+  recycledAtStart_ = solver_.flow().grainsRecycled;
   std::string walls;
   for (const auto& wall : stage.removeWalls)
     walls += (walls.empty() ? "; walls removed: " : ", ") + wall;
@@ -58,22 +61,37 @@ std::int64_t StageControl::nextLook() const {
   return start_ + next;
 }
 
+void StageControl::left(const std::vector<LeftGrain>& grains) {
+  for (const auto& grain : grains)
+    recycling_.left(grain);
+}
+
+void StageControl::bringIn() {
+  const auto enter = [&](const std::vector<GrainSeed>& grains) {
+    if (grains.empty()) return;
+    solver_.add(grains);
+    watchdog_.entered(grains);
+  };
+  if (rain_ && !rain_->finished()) {
+    const auto free = [&](const Vec3& position, double radius) { return solver_.isFree(position, radius); };
+    const double time = static_cast<double>(stageSteps()) * solver_.stepSize();
+    enter(rain_->due(time, solver_.nextId(), free));
+  }
+  enter(recycling_.due(solver_, scene_.stages[stage_].name));
+}
+
 void StageControl::look() {
   const std::int64_t steps = stageSteps();
-  if (steps > 0 && steps % shortInterval == 0 && rain_ && !rain_->finished()) {
-    const auto free = [&](const Vec3& position, double radius) { return solver_.isFree(position, radius); };
-    const auto grains = rain_->due(static_cast<double>(steps) * solver_.stepSize(), solver_.nextId(), free);
-    if (!grains.empty()) {
-      solver_.add(grains);
-      watchdog_.entered(grains);
-    }
-  }
+  if (steps > 0 && steps % shortInterval == 0) bringIn();
   const bool longLook = steps > 0 && steps % longInterval == 0;
   if (longLook) watchdog_.check(solver_, solver_.energies());
   if (!ended(longLook)) return;
   report(log_, LogLevel::info,
          fmt::format("stage '{}' ends at {:.6g} s after {} steps with {} grains", scene_.stages[stage_].name,
                      solver_.time(), steps, solver_.grains()));
+  if (rain_)
+    for (const auto& sentence : rain_->shortfall(static_cast<double>(steps) * solver_.stepSize()))
+      report(log_, LogLevel::warning, fmt::format("stage '{}', {}", scene_.stages[stage_].name, sentence));
   ++stage_;
   begun_ = false;
   rain_.reset();
@@ -86,7 +104,8 @@ bool StageControl::ended(bool longLook) const {
   if (stage.duration && steps >= stepsIn(*stage.duration, dt)) return true;
   if (steps % shortInterval != 0) return false;
   const bool raining = rain_ && !rain_->finished();
-  if (stage.untilEmpty && !raining && solver_.grains() == 0) return true;
+  const bool coming = raining || recycling_.waiting() > 0;
+  if (stage.untilEmpty && !coming && solver_.grains() == 0) return true;
   const Flow& flow = solver_.flow();
   if (stage.massDischarged && flow.massDischarged - massAtStart_ >= *stage.massDischarged) return true;
   if (stage.quietTime) {
@@ -96,8 +115,18 @@ bool StageControl::ended(bool longLook) const {
     const double quiet = solver_.time() - (flowing ? flow.lastDischarge : began);
     if (quiet >= (flowing ? 1 : quietBeforeFlow) * *stage.quietTime) return true;
   }
-  if (!longLook || !stage.settledKineticEnergy || raining || steps < stepsIn(stage.settledAfter, dt))
-    return false;
+  if (stage.recirculations && grainsAtStart_ > 0 &&
+      static_cast<double>(flow.grainsRecycled - recycledAtStart_) >=
+          *stage.recirculations * static_cast<double>(grainsAtStart_))
+    return true;
+  return longLook && !coming && steps >= stepsIn(stage.settledAfter, dt) && atRest();
+}
+
+bool StageControl::atRest() const {
+  const StageSpec& stage = scene_.stages[stage_];
+  if (!stage.settledKineticEnergy && !stage.settledSpeed) return false;
+  if (stage.settledSpeed && !(solver_.greatestSpeed() < *stage.settledSpeed)) return false;
+  if (!stage.settledKineticEnergy) return true;
   const Energies energies = solver_.energies();
   const auto grains = static_cast<double>(std::max<std::size_t>(solver_.grains(), 1));
   return (energies.translational + energies.rotational) / grains < *stage.settledKineticEnergy;
@@ -119,6 +148,9 @@ double StageControl::stageFraction() const {
   if (stage.untilEmpty && grainsAtStart_ > 0)
     fraction =
         std::max(fraction, 1 - static_cast<double>(solver_.grains()) / static_cast<double>(grainsAtStart_));
+  if (stage.recirculations && grainsAtStart_ > 0)
+    fraction = std::max(fraction, static_cast<double>(solver_.flow().grainsRecycled - recycledAtStart_) /
+                                      (*stage.recirculations * static_cast<double>(grainsAtStart_)));
   return std::clamp(fraction, 0.0, 1.0);
 }
 
@@ -138,18 +170,22 @@ double StageControl::fraction() const {
 std::vector<std::byte> StageControl::save() const {
   ByteWriter out;
   out << static_cast<std::uint64_t>(stage_) << begun_ << start_ << massAtStart_ << grainsAtStart_ << starts_
-      << (rain_ ? rain_->state() : std::vector<std::int64_t>{}) << watchdog_.save();
+      << recycledAtStart_ << recycling_.save() << (rain_ ? rain_->state() : std::vector<std::int64_t>{})
+      << watchdog_.save();
   return out.take();
 }
 
 void StageControl::load(const std::vector<std::byte>& bytes) {
   std::uint64_t stage = 0;
   std::vector<std::int64_t> rain;
-  std::vector<std::byte> watchdog;
-  ByteReader(bytes) >> stage >> begun_ >> start_ >> massAtStart_ >> grainsAtStart_ >> starts_ >> rain >> watchdog;
+  std::vector<std::byte> watchdog, recycling;
+  ByteReader(bytes) >> stage >> begun_ >> start_ >> massAtStart_ >> grainsAtStart_ >> starts_ >>
+      recycledAtStart_ >> recycling >> rain >> watchdog;
   stage_ = stage;
   watchdog_.load(watchdog);
+  recycling_.load(recycling);
   rain_.reset();
+  if (begun_ && !done()) solver_.setDrag(scene_.stages[stage_].drag.value_or(0));
   if (begun_ && !done()) rain_ = makeRain(scene_, scene_.stages[stage_].name);
   if (rain_) rain_->setState(rain);
 }

@@ -6,6 +6,7 @@
 
 #include "sim/base/log.h"
 #include "sim/run/energy_watchdog.h"
+#include "sim/run/recycling.h"
 #include "sim/scene/scene.h"
 #include "sim/solvers/solver.h"
 
@@ -32,19 +33,23 @@ public:
   std::int64_t nextLook() const;
   /// After steps: rain, energy check, end conditions. Throws RunError from the energy check.
   void look();
+  /// Grains that have left, as the solver gives them after each advance.
+  void left(const std::vector<LeftGrain>& grains);
 
   bool done() const { return stage_ >= scene_.stages.size(); } ///< all stages have ended
   std::size_t index() const { return stage_; }
   const std::string& name() const; ///< of the stage that last began; empty before the first
   const std::vector<double>& starts() const { return starts_; } ///< [s], of the stages that have begun
-  double fraction() const;         ///< of the whole run, 0..1, an estimate
+  double fraction() const;                                      ///< of the whole run, 0..1, an estimate
 
   std::vector<std::byte> save() const;
   void load(const std::vector<std::byte>& bytes);
 
 private:
   std::int64_t stageSteps() const; ///< since the stage began
+  void bringIn();                  ///< rain and grains put back
   bool ended(bool longLook) const;
+  bool atRest() const;
   double stageFraction() const;
 
   const Scene& scene_;
@@ -56,8 +61,9 @@ private:
   std::vector<double> starts_;
   std::int64_t start_ = 0; ///< step at which the stage began
   double massAtStart_ = 0; ///< [kg] discharged before the stage
-  std::int64_t grainsAtStart_ = 0;
+  std::int64_t grainsAtStart_ = 0, recycledAtStart_ = 0;
   std::unique_ptr<Rain> rain_;
+  Recycling recycling_;
 };
 
 } // namespace sandglass

@@ -186,6 +186,8 @@ void checkAmounts(const Scene& scene, FaultList& faults) {
       count = p.number("mass") / mixture.meanMass();
     else if (p.has("solid_fraction"))
       count = p.number("solid_fraction") * region / mixture.meanVolume();
+    else if (fill.how.kind == "rain")
+      count = static_cast<double>(rainCount(scene, fill));
     else if (lattice)
       count = ((p.vector("upper") - p.vector("lower")) / p.number("spacing")).array().max(1.0).prod();
     if (count > mostGrains) {

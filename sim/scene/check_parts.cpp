@@ -231,9 +231,14 @@ void checkWallsAndOutlets(const Scene& scene, FaultList& faults) {
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const WallSpec& wall = scene.walls[i];
     const std::string path = partPath("wall", wall.name, i);
+    for (const char* key : {"stage", "until_stage"})
+      if (wall.motion.parameters.has(key))
+        checkReference(path + ".motion." + key, wall.motion.parameters.text(key), scene.stages, "stage",
+                       faults);
     if (faults.has(path) || faults.has("domain")) continue;
     for (const auto& kind : wallKinds())
-      if (kind.name == wall.shape.kind && !kind.make(wall.shape.parameters)->bounds().intersects(space))
+      if (kind.name == wall.shape.kind && !kind.make(wall.shape.parameters)->bounds().intersects(space) &&
+          wall.motion.kind.empty())
         faults.about(path,
                      "lies outside the domain, where no grain can touch it; move it or enlarge the domain");
   }
@@ -256,8 +261,9 @@ void checkStages(const Scene& scene, FaultList& faults) {
                      fmt::format("but the wall '{}' is removed already; leave it out here", wall));
     }
     if (faults.has(path)) continue;
-    const bool needsOutlet = stage.untilEmpty || stage.massDischarged || stage.quietTime;
-    if (!stage.duration && !stage.settledKineticEnergy && !needsOutlet)
+    const bool needsOutlet =
+        stage.untilEmpty || stage.massDischarged || stage.quietTime || stage.recirculations;
+    if (!stage.duration && !stage.settledKineticEnergy && !stage.settledSpeed && !needsOutlet)
       faults.about(path, "never ends; add an end condition, such as until = { duration = \"1 s\" }");
     if (needsOutlet && scene.outlets.empty() && !stage.duration && !faults.has("outlet"))
       faults.about(path + ".until",

@@ -50,8 +50,10 @@ void FaultList::general(const std::string& sentence, const std::string& key) {
   add(key, nullptr, sentence);
 }
 
-void FaultList::foreign(const std::string& sentence) {
-  faults_.push_back({std::numeric_limits<int>::max(), "", sentence});
+void FaultList::foreign(const std::string& sentence, const std::string& key) {
+  const Known* at = key.empty() ? nullptr : known(key);
+  const bool placed = at && !at->place.override_ && at->place.line > 0;
+  faults_.push_back({placed ? at->place.line : std::numeric_limits<int>::max(), key, sentence});
 }
 
 bool FaultList::has(const std::string& key) const {

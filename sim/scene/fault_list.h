@@ -22,8 +22,9 @@ public:
   void about(const std::string& key, const std::string& sentence);
   /// A fault of the scene as a whole, "FILE: SENTENCE"; it counts as one of `key` where that is given.
   void general(const std::string& sentence, const std::string& key = "");
-  /// A finished sentence with its own place (a CSV file, a bad override).
-  void foreign(const std::string& sentence);
+  /// A finished sentence with its own place: a bad override, or a CSV file, which is listed where `key` names
+  /// it.
+  void foreign(const std::string& sentence, const std::string& key = "");
 
   bool empty() const { return faults_.empty(); }
   /// True when a fault was reported for this key or one below it: further checks of it would only confuse.

@@ -176,7 +176,8 @@ void assign(Row& row, const Column& column, const std::string& cell) {
   }
 }
 
-std::vector<Row> csvRows(const std::string& file, const std::vector<Species>& species, FaultList& faults) {
+std::vector<Row> csvRows(const std::string& file, const std::vector<Species>& species, const std::string& key,
+                         FaultList& faults) {
   std::ifstream in(file);
   std::vector<Row> rows;
   std::vector<Column> columns;
@@ -210,12 +211,12 @@ std::vector<Row> csvRows(const std::string& file, const std::vector<Species>& sp
       }
       rows.push_back(row);
     } catch (const InputError& problem) {
-      faults.foreign(fmt::format("{}:{}: {}", file, number, problem.what()));
+      faults.foreign(fmt::format("{}:{}: {}", file, number, problem.what()), key);
       ++found;
       if (columns.empty()) break; // a wrong heading spoils every line
     }
   }
-  if (rows.empty() && found == 0) faults.foreign(fmt::format("{}: there is no grain in the file", file));
+  if (rows.empty() && found == 0) faults.foreign(fmt::format("{}: there is no grain in the file", file), key);
   return rows;
 }
 
@@ -236,7 +237,7 @@ void readGrainRows(TableReader& in, const std::vector<Species>& species, const s
       in.faults().wrong(in.pathOf("csv"),
                         fmt::format("but there is no file {}", file.lexically_normal().string()));
     else
-      rows = csvRows(file.lexically_normal().string(), species, in.faults());
+      rows = csvRows(file.lexically_normal().string(), species, in.pathOf("csv"), in.faults());
   } else if (rows.empty() && !before && !in.faults().has(in.path())) {
     in.faults().about(
         in.path(),

@@ -17,7 +17,9 @@ const std::vector<ProbeKind>& probeKinds() {
        {point("point", "a point of the plane"),
         {.name = "normal", .type = vector, .unit = "1", .description = "direction counted as positive"}}},
       {"wall_force",
-       "force and torque of the grains on a wall",
+       "force and torque of the grains on a wall, the work that it does by moving, the work of sliding along "
+       "it "
+       "and the number of contacts begun",
        {{.name = "wall", .type = text, .unit = "1", .description = "name of the wall"}}},
   };
   return kinds;

@@ -53,7 +53,8 @@ struct Species {
 struct WallSpec {
   std::string name;
   std::string material;
-  Choice shape; ///< a WallKind
+  Choice shape;  ///< a WallKind
+  Choice motion; ///< a MotionKind; kind "" for a wall that stands still
   bool operator==(const WallSpec&) const = default;
 };
 
@@ -76,19 +77,32 @@ struct FillSpec {
 struct StageSpec {
   std::string name;
   std::vector<std::string> removeWalls;
+  std::optional<double> drag;                 ///< [1/s], rate at which velocities and spins decay meanwhile
   std::optional<double> duration;             ///< [s] from the start of the stage
   std::optional<double> settledKineticEnergy; ///< [J] per grain, mean; checked after `settledAfter`
+  std::optional<double> settledSpeed;         ///< [m/s], of the fastest; with both, both must hold
   double settledAfter = 0;                    ///< [s]
   bool untilEmpty = false;                    ///< no grain left
   std::optional<double> massDischarged;       ///< [kg]
   std::optional<double> quietTime;            ///< [s] without any grain leaving
+  std::optional<double> recirculations;       ///< grains put back, as a multiple of the number at the start
   bool operator==(const StageSpec&) const = default;
 };
 
-/// Grains beyond this plane (on the side its normal points to) leave the run and count as discharged.
+/// Where an outlet puts grains back: at the lowest free height over what lies in this box.
+struct RecycleSpec {
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero(); ///< [m]
+  Vec3 velocity = Vec3::Zero();                    ///< [m/s]
+  bool operator==(const RecycleSpec&) const = default;
+};
+
+/// Grains beyond this plane (on the side its normal points to) count as discharged and leave the run, unless
+/// they are put back.
 struct OutletSpec {
   std::string name;
   Vec3 point = Vec3::Zero(), normal = -Vec3::UnitY();
+  bool record = false; ///< each grain that leaves gets a row in discharged.csv
+  std::optional<RecycleSpec> recycle;
   bool operator==(const OutletSpec&) const = default;
 };
 

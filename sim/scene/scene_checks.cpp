@@ -1,6 +1,7 @@
 #include "sim/scene/scene_checks.h"
 
 #include "sim/scene/check_fills.h"
+#include "sim/scene/check_flow.h"
 #include "sim/scene/check_parts.h"
 
 namespace sandglass {
@@ -17,7 +18,9 @@ void checkScene(const Scene& scene, FaultList& faults) {
   checkTimes(scene, faults);
   // Sizes, space and amounts make sense only when all the rest does.
   if (faults.empty()) checkSizes(scene, faults);
+  if (faults.empty()) checkRecycling(scene, faults);
   if (faults.empty()) checkAmounts(scene, faults);
+  if (faults.empty()) checkEndings(scene, faults);
 }
 
 } // namespace sandglass

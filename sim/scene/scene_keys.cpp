@@ -100,7 +100,24 @@ const Keys& outletKeys() {
   static const Keys keys{
       name,
       {.name = "point", .type = vector, .unit = "m", .description = "a point of the plane"},
-      {.name = "normal", .type = vector, .unit = "1", .description = "points to where grains are taken out"}};
+      {.name = "normal", .type = vector, .unit = "1", .description = "points to where grains are taken out"},
+      {.name = "record",
+       .type = boolean,
+       .unit = "1",
+       .description = "whether each grain that passes gets a row in discharged.csv",
+       .optional = true}};
+  return keys;
+}
+
+const Keys& recycleKeys() {
+  static const Keys keys{
+      {.name = "lower", .type = vector, .unit = "m", .description = "lower corner of the box"},
+      {.name = "upper", .type = vector, .unit = "m", .description = "upper corner of the box"},
+      {.name = "velocity",
+       .type = vector,
+       .unit = "m/s",
+       .description = "with which they begin",
+       .fallback = Vec3(Vec3::Zero())}};
   return keys;
 }
 
@@ -142,7 +159,10 @@ const Keys& stageKeys() {
                           .type = texts,
                           .unit = "1",
                           .description = "walls that vanish as it begins",
-                          .fallback = std::vector<std::string>{}}};
+                          .fallback = std::vector<std::string>{}},
+                         positive("drag", "1/s",
+                                  "rate at which velocities and spins decay while it lasts, to settle a bed "
+                                  "sooner")};
   return keys;
 }
 
@@ -150,15 +170,20 @@ const Keys& untilKeys() {
   static const Keys keys{
       positive("duration", "s", "time from the start of the stage"),
       positive("settled", "J", "mean kinetic energy of a grain below which the bed is at rest"),
+      positive("settled_speed", "m/s",
+               "speed of the fastest grain below which the bed is at rest; with 'settled' both must hold"),
       {.name = "settled_after",
        .type = number,
        .unit = "s",
-       .description = "earliest time at which 'settled' counts",
+       .description = "earliest time at which 'settled' and 'settled_speed' count",
        .fallback = 0.0,
        .minimum = 0},
       {.name = "empty", .type = boolean, .unit = "1", .description = "no grain is left", .fallback = false},
       positive("mass_discharged", "kg", "mass that has left through outlets"),
-      positive("quiet", "s", "time without any grain leaving")};
+      positive("quiet", "s", "time without any grain leaving"),
+      positive(
+          "recirculations", "1",
+          "grains put back by outlets, as a multiple of the number of grains at the start of the stage")};
   return keys;
 }
 
@@ -174,35 +199,36 @@ const Keys& probeKeys() {
 }
 
 const Keys& outputKeys() {
-  static const Keys keys{{.name = "frame_interval",
-                          .type = number,
-                          .unit = "s",
-                          .description = "between frames; 0: first and last only",
-                          .fallback = 0.0,
-                          .minimum = 0},
-                         {.name = "checkpoint_interval",
-                          .type = number,
-                          .unit = "s",
-                          .description = "between checkpoints; 0: 20 in a run",
-                          .fallback = 0.0,
-                          .minimum = 0},
-                         {.name = "quantities",
-                          .type = texts,
-                          .unit = "1",
-                          .description = "what frames carry beside positions and radii",
-                          .fallback = std::vector<std::string>{"velocity"},
-                          .choices = {"radius", "mass", "species", "velocity", "spin", "force"}},
-                         {.name = "contacts",
-                          .type = boolean,
-                          .unit = "1",
-                          .description = "whether frames carry the contacts",
-                          .fallback = false},
-                         {.name = "positions",
-                          .type = text,
-                          .unit = "1",
-                          .description = "precision of positions in frames",
-                          .fallback = std::string("double"),
-                          .choices = {"double", "single"}}};
+  static const Keys keys{
+      {.name = "frame_interval",
+       .type = number,
+       .unit = "s",
+       .description = "between frames; 0: first and last only",
+       .fallback = 0.0,
+       .minimum = 0},
+      {.name = "checkpoint_interval",
+       .type = number,
+       .unit = "s",
+       .description = "between checkpoints; 0: 20 in a run",
+       .fallback = 0.0,
+       .minimum = 0},
+      {.name = "quantities",
+       .type = texts,
+       .unit = "1",
+       .description = "what frames carry beside positions and radii",
+       .fallback = std::vector<std::string>{"velocity"},
+       .choices = {"radius", "mass", "species", "velocity", "spin", "force", "residence_time", "life"}},
+      {.name = "contacts",
+       .type = boolean,
+       .unit = "1",
+       .description = "whether frames carry the contacts",
+       .fallback = false},
+      {.name = "positions",
+       .type = text,
+       .unit = "1",
+       .description = "precision of positions in frames",
+       .fallback = std::string("double"),
+       .choices = {"double", "single"}}};
   return keys;
 }
 

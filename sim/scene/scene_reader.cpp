@@ -8,6 +8,8 @@
 #include "sim/scene/probe_registry.h"
 #include "sim/scene/scene_sections.h"
 #include "sim/scene/table_reader.h"
+#include "sim/walls/mesh_file.h"
+#include "sim/walls/wall_motion.h"
 #include "sim/walls/wall_registry.h"
 
 namespace sandglass {
@@ -133,7 +135,20 @@ private:
     TableReader in(table, path, faults_);
     readKeys(in, wallKeys(), wall);
     const WallKind* kind = in.choose("kind", wallKinds(), wall.shape);
+    if (const ValueTable* motion = in.subtable("motion")) {
+      TableReader motionIn(*motion, path + ".motion", faults_);
+      const MotionKind* how = motionIn.choose("kind", motionKinds(), wall.motion);
+      motionIn.reportUnknown();
+      if (how && !faults_.has(path + ".motion")) tryToMake(*how, wall.motion, path + ".motion");
+    }
     in.reportUnknown();
+    if (kind && wall.shape.parameters.has("file") && !faults_.has(path)) {
+      try {
+        wall.shape.parameters = meshFromFile(wall.shape.parameters, baseFolder_);
+      } catch (const InputError& problem) {
+        faults_.about(path, std::string("has no mesh: ") + problem.what());
+      }
+    }
     if (kind && !faults_.has(path)) tryToMake(*kind, wall.shape, path);
   }
 
@@ -149,6 +164,11 @@ private:
     OutletSpec& outlet = scene_.outlets.emplace_back();
     TableReader in(table, path, faults_);
     readKeys(in, outletKeys(), outlet);
+    if (const ValueTable* recycle = in.subtable("recycle")) {
+      TableReader recycleIn(*recycle, path + ".recycle", faults_);
+      readKeys(recycleIn, recycleKeys(), outlet.recycle.emplace());
+      recycleIn.reportUnknown();
+    }
     in.reportUnknown();
   }
 

@@ -8,6 +8,7 @@
 #include "sim/scene/scene_writer.h"
 #include "sim/scene/suggest.h"
 #include "sim/scene/units.h"
+#include "sim/walls/wall_motion.h"
 #include "sim/walls/wall_registry.h"
 
 #include <fmt/format.h>
@@ -108,8 +109,15 @@ std::string sceneReference() {
           laws(LawRole::rolling, "rolling") + laws(LawRole::gap, "gap");
   text += "## `[[species]]`: grains of one sort\n\n" + table(speciesKeys()) +
           "and `size = { distribution = \"…\", … }`:\n\n" + kinds(sizeKinds(), "distribution");
-  text += "## `[[wall]]`\n\n" + table(wallKeys()) + kinds(wallKinds(), "kind");
-  text += "## `[[outlet]]`: a plane beyond which grains leave the run\n\n" + table(outletKeys());
+  text += "## `[[wall]]`\n\n" + table(wallKeys()) + kinds(wallKinds(), "kind") +
+          "A wall that moves has `motion = { kind = \"…\", … }` besides; its shape is described where it is "
+          "when its motion begins.\n\n";
+  text += kinds(motionKinds(), "motion.kind");
+  text +=
+      "## `[[outlet]]`: a plane beyond which grains leave the run\n\n" + table(outletKeys()) +
+      "and, if wanted, `recycle = { … }`: grains that pass are put back at a random place of a box, as low "
+      "as nothing lies\nabove it, and wait until there is one. Each keeps its id and counts its lives.\n\n" +
+      table(recycleKeys());
   text += "## `[[fill]]`: where grains come from\n\nGrains are named by `species`, or by `mixture = [{ "
           "species = \"…\", fraction "
           "= 0.3 }, …]`.\n\n" +

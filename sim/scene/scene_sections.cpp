@@ -121,6 +121,21 @@ void load(const Parameters& values, OutletSpec& outlet) {
   get(values, "name", outlet.name);
   get(values, "point", outlet.point);
   get(values, "normal", outlet.normal);
+  get(values, "record", outlet.record);
+}
+
+void load(const Parameters& values, RecycleSpec& recycle) {
+  get(values, "lower", recycle.lower);
+  get(values, "upper", recycle.upper);
+  get(values, "velocity", recycle.velocity);
+}
+
+Parameters store(const RecycleSpec& recycle) {
+  Parameters values;
+  values.set("lower", recycle.lower);
+  values.set("upper", recycle.upper);
+  values.set("velocity", recycle.velocity);
+  return values;
 }
 
 Parameters store(const OutletSpec& outlet) {
@@ -128,6 +143,7 @@ Parameters store(const OutletSpec& outlet) {
   values.set("name", outlet.name);
   values.set("point", outlet.point);
   values.set("normal", outlet.normal);
+  if (outlet.record) values.set("record", true);
   return values;
 }
 
@@ -163,18 +179,22 @@ Parameters store(const Share& share) {
 void load(const Parameters& values, StageSpec& stage) {
   get(values, "name", stage.name);
   get(values, "remove_walls", stage.removeWalls);
+  get(values, "drag", stage.drag);
   get(values, "duration", stage.duration);
   get(values, "settled", stage.settledKineticEnergy);
+  get(values, "settled_speed", stage.settledSpeed);
   get(values, "settled_after", stage.settledAfter);
   get(values, "empty", stage.untilEmpty);
   get(values, "mass_discharged", stage.massDischarged);
   get(values, "quiet", stage.quietTime);
+  get(values, "recirculations", stage.recirculations);
 }
 
 Parameters store(const StageSpec& stage) {
   Parameters values;
   values.set("name", stage.name);
   values.set("remove_walls", stage.removeWalls);
+  put(values, "drag", stage.drag);
   return values;
 }
 
@@ -182,10 +202,12 @@ Parameters storeUntil(const StageSpec& stage) {
   Parameters values;
   put(values, "duration", stage.duration);
   put(values, "settled", stage.settledKineticEnergy);
+  put(values, "settled_speed", stage.settledSpeed);
   values.set("settled_after", stage.settledAfter);
   values.set("empty", stage.untilEmpty);
   put(values, "mass_discharged", stage.massDischarged);
   put(values, "quiet", stage.quietTime);
+  put(values, "recirculations", stage.recirculations);
   return values;
 }
 

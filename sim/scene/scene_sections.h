@@ -16,7 +16,8 @@ const Keys& materialKeys();
 const Keys& contactKeys(); ///< beside the laws
 const Keys& speciesKeys(); ///< beside `size`
 const Keys& wallKeys();    ///< beside kind and its parameters
-const Keys& outletKeys();
+const Keys& outletKeys();  ///< beside `recycle`
+const Keys& recycleKeys();
 const Keys& fillKeys();  ///< beside kind, mixture and the kind's parameters
 const Keys& shareKeys(); ///< one entry of a mixture
 const Keys& stageKeys(); ///< beside `until`
@@ -33,6 +34,7 @@ void load(const Parameters& values, ContactSpec& contact);
 void load(const Parameters& values, Species& species);
 void load(const Parameters& values, WallSpec& wall);
 void load(const Parameters& values, OutletSpec& outlet);
+void load(const Parameters& values, RecycleSpec& recycle);
 void load(const Parameters& values, FillSpec& fill);
 void load(const Parameters& values, Share& share);
 void load(const Parameters& values, StageSpec& stage); ///< of stageKeys and of untilKeys
@@ -48,6 +50,7 @@ Parameters store(const ContactSpec& contact);
 Parameters store(const Species& species);
 Parameters store(const WallSpec& wall);
 Parameters store(const OutletSpec& outlet);
+Parameters store(const RecycleSpec& recycle);
 Parameters store(const FillSpec& fill);
 Parameters store(const Share& share);
 Parameters store(const StageSpec& stage);

@@ -7,6 +7,7 @@
 #include "sim/scene/probe_registry.h"
 #include "sim/scene/scene_sections.h"
 #include "sim/scene/units.h"
+#include "sim/walls/wall_motion.h"
 #include "sim/walls/wall_registry.h"
 
 #include <fmt/format.h>
@@ -145,10 +146,16 @@ public:
     }
     for (const auto& w : scene_.walls) {
       Lines all = lines(wallKeys(), store(w));
-      emit("[[wall]]", append(all, lines("kind", wallKinds(), w.shape)));
+      append(all, lines("kind", wallKinds(), w.shape));
+      if (!w.motion.kind.empty())
+        all.push_back("motion = " + inlineTable(lines("kind", motionKinds(), w.motion)));
+      emit("[[wall]]", all);
     }
-    for (const auto& o : scene_.outlets)
-      emit("[[outlet]]", lines(outletKeys(), store(o)));
+    for (const auto& o : scene_.outlets) {
+      Lines all = lines(outletKeys(), store(o));
+      if (o.recycle) all.push_back("recycle = " + inlineTable(lines(recycleKeys(), store(*o.recycle))));
+      emit("[[outlet]]", all);
+    }
     for (const auto& f : scene_.fills)
       emit("[[fill]]", fill(f));
     for (const auto& s : scene_.stages) {

@@ -22,9 +22,11 @@ struct Energies {
 
 /// Totals that only grow while a run goes on.
 struct Flow {
-  std::int64_t grainsEntered = 0, grainsDischarged = 0;
-  double massEntered = 0, massDischarged = 0; ///< [kg]
-  double lastDischarge = 0;                   ///< [s], time when a grain last left; 0 if none did
+  // A grain that is put back counts as discharged and as recycled, not as entered again: entered + recycled -
+  // discharged is what is there.
+  std::int64_t grainsEntered = 0, grainsDischarged = 0, grainsRecycled = 0;
+  double massEntered = 0, massDischarged = 0, massRecycled = 0; ///< [kg]
+  double lastDischarge = 0; ///< [s], time when a grain last left; 0 if none did
 };
 
 /// How the step was chosen, in words and numbers, for `explain`.
@@ -42,6 +44,10 @@ public:
   /// Adds grains between steps.
   virtual void add(const std::vector<GrainSeed>& grains) = 0;
   virtual void removeWall(const std::string& name) = 0;
+  /// From now on velocities and spins decay at this rate [1/s], beside all forces; 0: no more.
+  virtual void setDrag(double rate) = 0;
+  /// A stage of the scene begins now; for walls whose motion waits for one.
+  virtual void beginStage(const std::string& name) {}
 
   /// Runs `steps` steps. Throws RunError when the state turned bad (NaN, escape, overlap); then the state is
   /// not to be used any more.
@@ -53,13 +59,19 @@ public:
   virtual std::size_t grains() const = 0;
   virtual std::int64_t nextId() const = 0;
   virtual bool isFree(const Vec3& position, double radius) const = 0;
+  virtual double greatestSpeed() const = 0; ///< [m/s]
+  /// Grains that have left through outlets that record or recycle since the last call, in order. To be called
+  /// after every advance(): the state that save() gives does not hold them.
+  virtual std::vector<LeftGrain> takeLeft() = 0;
 
   /// Velocities and positions at the same instant; quantities as the scene's output asks, radius always.
   virtual FramePtr frame() const = 0;
   virtual Energies energies() const = 0;
   virtual const Flow& flow() const = 0;
-  virtual std::vector<GrainSeed> present() const = 0;
-  virtual std::vector<FrameWall> walls() const = 0; ///< with forces now
+  virtual std::vector<GrainSeed> present() const = 0; ///< ascending ids
+  virtual std::vector<FrameWall> walls() const = 0;   ///< with forces now
+  /// What moving walls have done to the grains since the run began [J].
+  virtual double wallWork() const { return 0.0; }
 
   /// Everything that decides the future, bit for bit: a named set of byte arrays.
   using State = std::map<std::string, std::vector<std::byte>>;

@@ -6,6 +6,8 @@
 #include "sim/walls/profile.h"
 #include "sim/walls/wall_kinds.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -34,7 +36,9 @@ public:
     });
     if (x.x() >= reach) return; // the far side is out of reach
     profile_.touches({-x.x(), x.y()}, reach, [&](const Profile::Touch& t) {
-      if (t.normal.x() < 0.0) // a bottom disc was reported already
+      // A bottom disc was reported already, and so was all that meets on the axis: it has no far side.
+      const bool onAxis = t.feature % 2 == 0 && profile_.points()[t.feature / 2].x() == 0.0;
+      if (t.normal.x() < 0.0 && !onAxis)
         out.add({t.distance, -t.normal.x() * radial + t.normal.y() * axis_, profile_.features() + t.feature});
     });
   }
@@ -179,6 +183,24 @@ WallKind frustumWallKind() {
               throw InputError("lower_radius and upper_radius must not both be zero");
             return frustum(p, p.number("lower_radius"), p.number("upper_radius"), p.vector("base"),
                            p.text("ends"));
+          }};
+}
+
+WallKind discWallKind() {
+  return {"disc",
+          "a flat circular plate, with a round hole in its middle if wanted; grains on both sides",
+          {{"centre", ParameterType::vector, "m", "its middle"},
+           {"normal", ParameterType::vector, "1", "square to the plate", ParameterValue(Vec3(0, 0, 1))},
+           length("radius", "of the plate"),
+           {"hole", ParameterType::number, "m", "radius of the hole", ParameterValue(0.0), false, 0.0}},
+          [](const Parameters& p) {
+            if (p.vector("normal").norm() == 0.0) throw InputError("the normal must not be zero");
+            const double hole = p.number("hole"), radius = p.number("radius");
+            if (hole >= radius)
+              throw InputError(
+                  fmt::format("the hole ({:g} m) must be smaller than the plate ({:g} m)", hole, radius));
+            return std::make_shared<RevolvedWall>(p.vector("centre"), p.vector("normal"),
+                                                  Profile({{hole, 0.0}, {radius, 0.0}}), false, false);
           }};
 }
 

@@ -13,5 +13,8 @@ WallKind coneWallKind();
 WallKind frustumWallKind();
 WallKind wedgeWallKind();
 WallKind coneHopperWallKind();
+WallKind discWallKind();
+WallKind obliqueConeWallKind();
+WallKind meshWallKind();
 
 } // namespace sandglass

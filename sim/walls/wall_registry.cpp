@@ -6,8 +6,9 @@ namespace sandglass {
 
 const std::vector<WallKind>& wallKinds() {
   static const std::vector<WallKind> kinds{
-      planeWallKind(), rectangleWallKind(), boxWallKind(),   cylinderWallKind(),
-      coneWallKind(),  frustumWallKind(),   wedgeWallKind(), coneHopperWallKind(),
+      planeWallKind(), rectangleWallKind(),   boxWallKind(),   cylinderWallKind(),
+      coneWallKind(),  frustumWallKind(),     wedgeWallKind(), coneHopperWallKind(),
+      discWallKind(),  obliqueConeWallKind(), meshWallKind(),
   };
   return kinds;
 }

@@ -1,81 +1,58 @@
-// Speed of the contact core on one machine: rows of
-//   case,program,threads,precision,grains,steps,cpu_s,wall_s,grain_steps_per_cpu_s,bytes_per_grain,check
-// `check` is a hash of all positions and velocities: equal for equal physics, whatever the threads.
+// Speed of the contact core on one machine, beside other programs where they are installed. All programs take
+// turns in rounds, since a machine's speed drifts by tens of per cent within seconds; every round is kept,
+// and ratios are medians of ratios within a round. A row of a case that LAMMPS takes part in counts only when
+// the kinetic energies of both at step 300 agree to 1e-3.
 
-#include "sim/base/random.h"
+#include "sim/base/error.h"
 #include "sim/solvers/dem/dem_solver.h"
+#include "tests/bench/core_cases.h"
+#include "tests/bench/core_rows.h"
+#include "tests/peers/circumstances.h"
+#include "tests/peers/lammps.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #define XXH_INLINE_ALL // header only
 #include <xxhash.h>
 
+#include <x86intrin.h>
+
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <thread>
 
 using namespace sandglass;
+using namespace sandglass::bench;
 
 namespace {
 
-/// A bed of equal beads over a floor, periodic sideways: dry, frictional, with history.
-Scene bedScene(int across, bool friction) {
-  const double width = across * 2.05e-3;
-  return parseScene(fmt::format(R"(
-title = "bed"
-gravity = ["0", "0", "-9.81 m/s^2"]
-[domain]
-lower = ["0 m", "0 m", "-1 cm"]
-upper = ["{0} m", "{0} m", "2 m"]
-periodic = ["x", "y"]
-[[material]]
-name = "glass"
-density = "2500 kg/m^3"
-[[contact]]
-between = ["glass", "glass"]
-normal = {{ law = "linear", stiffness = "500 N/m", restitution = 0.8 }}
-tangential = {1}
-[[species]]
-name = "bead"
-material = "glass"
-size = {{ distribution = "single", diameter = "2 mm" }}
-[[wall]]
-name = "floor"
-kind = "plane"
-material = "glass"
-point = ["0", "0", "0"]
-normal = [0, 0, 1]
-[[fill]]
-kind = "list"
-grains = [{{ position = ["2 mm", "2 mm", "2 mm"], species = "bead" }}]
-[[stage]]
-name = "run"
-until = {{ duration = "1 s" }}
-)",
-                                width,
-                                friction ? R"({ law = "spring", friction = 0.5 })" : R"({ law = "none" })"),
-                    "bench");
-}
+constexpr std::int64_t lookStep = 300;   ///< when kinetic energies are compared
+constexpr double energyTolerance = 1e-3; ///< relative; beyond it the two did not run the same case
 
-std::vector<GrainSeed> bed(int across, int layers) {
-  std::vector<GrainSeed> seeds;
-  for (int k = 0; k < across * across * layers; ++k) {
-    RandomStream random(1, RandomPurpose::test, k);
-    GrainSeed s;
-    s.id = k;
-    s.radius = 1e-3;
-    s.position = 2.05e-3 * Vec3(k % across + 0.5, k / across % across + 0.5, k / across / across + 0.5);
-    s.velocity = 0.05 * random.direction();
-    seeds.push_back(s);
-  }
-  return seeds;
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 double cpuSeconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Ticks of the time stamp counter in a second.
+double ticksPerSecond() {
+  static const double rate = [] {
+    const auto start = Clock::now();
+    const auto ticks = __rdtsc();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return static_cast<double>(__rdtsc() - ticks) / secondsSince(start);
+  }();
+  return rate;
 }
 
 std::string hashOf(const Solver& solver) {
@@ -86,44 +63,162 @@ std::string hashOf(const Solver& solver) {
   return fmt::format("{:016x}", XXH3_64bits(all.data(), all.size() * sizeof(double)));
 }
 
-std::string row(const std::string& name, DemSolver& solver, int threads, std::int64_t steps) {
-  const auto wall = std::chrono::steady_clock::now();
-  const double cpu = cpuSeconds();
-  const std::int64_t rebuilds = solver.rebuilds();
-  solver.advance(steps);
-  const double spentCpu = cpuSeconds() - cpu;
-  const std::chrono::duration<double> spentWall = std::chrono::steady_clock::now() - wall;
-  const double grainSteps = static_cast<double>(solver.grains()) * static_cast<double>(steps);
-  fmt::print(stderr,
-             "{}: {:.2f} million grain-steps per wall second, {:.2f} pairs listed a grain, a list lasts "
-             "{:.0f} steps\n",
-             name, grainSteps / spentWall.count() / 1e6,
-             static_cast<double>(solver.pairsListed()) / static_cast<double>(solver.grains()),
-             static_cast<double>(steps) /
-                 static_cast<double>(std::max<std::int64_t>(1, solver.rebuilds() - rebuilds)));
-  return fmt::format("{},sandglass,{},double,{},{},{:.3f},{:.3f},{:.4g},{:.0f},{}\n", name, threads,
-                     solver.grains(), steps, spentCpu, spentWall.count(), grainSteps / spentCpu,
-                     solver.bytesPerGrain(), hashOf(solver));
+std::unique_ptr<DemSolver> solverAt(const CoreCase& c, const Scene& scene, int threads) {
+  auto solver = std::make_unique<DemSolver>(scene, SolverOptions{threads});
+  if (c.grains.empty())
+    solver->load(c.state);
+  else
+    solver->add(c.grains);
+  return solver;
+}
+
+/// Touching contacts of the starting state, walls among them.
+double contactsOf(const CoreCase& c) {
+  Scene scene = c.scene;
+  scene.output.contacts = true;
+  const auto solver = solverAt(c, scene, 0);
+  solver->advance(1);
+  return static_cast<double>(solver->frame()->contacts.size());
+}
+
+/// Set-up (list, first forces) is not timed, as it is not in the loop time of LAMMPS.
+Timing runOurs(const CoreCase& c, int threads, double contacts, int round) {
+  const auto solver = solverAt(c, c.scene, threads);
+  solver->advance(0);
+  Timing t;
+  t.benchCase = c.name;
+  t.program = "sandglass";
+  t.threads = threads;
+  t.precision = "double";
+  t.round = round;
+  t.steps = c.steps;
+  t.grains = static_cast<std::int64_t>(solver->grains());
+  t.kineticEnergy = -1;
+  for (std::int64_t done = 0; done < c.steps;) {
+    const std::int64_t steps = done < lookStep ? std::min(lookStep, c.steps) : c.steps - done;
+    const auto start = Clock::now();
+    const double cpu = cpuSeconds();
+    solver->advance(steps);
+    t.cpuSeconds += cpuSeconds() - cpu;
+    t.wallSeconds += secondsSince(start);
+    done += steps;
+    if (done == lookStep && !c.lammps.empty()) t.kineticEnergy = solver->energies().translational;
+  }
+  t.bytesPerGrain = solver->bytesPerGrain();
+  t.check = hashOf(*solver);
+  if (contacts > 0)
+    t.cyclesPerContact = t.cpuSeconds * ticksPerSecond() / (contacts * static_cast<double>(c.steps));
+  return t;
+}
+
+Timing runLammpsOn(const CoreCase& c, const std::filesystem::path& folder, int ranks, int round) {
+  std::string deck = peers::lammpsOpening(c.scene, "grains.data");
+  for (const std::string& line : c.lammps)
+    deck += line + "\n";
+  deck += fmt::format("compute kinetic all ke\nthermo_style custom step atoms c_kinetic\n"
+                      "thermo_modify norm no format float %.17g\nthermo {}\nrun {}\n",
+                      lookStep, c.steps);
+  const peers::LammpsRun run = peers::runLammps(folder, deck, ranks);
+  const auto& loop = run.loops.front();
+  Timing t;
+  t.benchCase = c.name;
+  t.program = "lammps";
+  t.threads = ranks;
+  t.precision = "double";
+  t.round = round;
+  t.steps = loop.steps;
+  t.grains = static_cast<std::int64_t>(c.grains.size());
+  t.wallSeconds = loop.seconds;
+  t.cpuSeconds = loop.seconds * ranks; // its ranks wait by spinning
+  for (const auto& row : loop.thermo)
+    if (row.at("Step") == lookStep) t.kineticEnergy = row.at("c_kinetic");
+  return t;
+}
+
+Timing notInstalled(const std::string& name, const std::string& program) {
+  Timing t;
+  t.benchCase = name;
+  t.program = program;
+  t.check = "void: not installed";
+  return t;
+}
+
+/// Rows whose energies differ from those of the other program are void.
+void compareEnergies(std::vector<Timing>& timings, const std::string& name) {
+  double theirs = -1;
+  for (const Timing& t : timings)
+    if (t.benchCase == name && t.program == "lammps") theirs = t.kineticEnergy;
+  if (theirs < 0) return;
+  for (Timing& t : timings)
+    if (t.benchCase == name && t.program == "sandglass") {
+      const double off = std::abs(t.kineticEnergy / theirs - 1);
+      if (off > energyTolerance) t.check = fmt::format("void: kinetic energy off by {:.2g}", off);
+    }
+}
+
+void measure(const CoreCase& c, int rounds, bool lammps, std::vector<Timing>& timings) {
+  const double contacts = contactsOf(c);
+  std::optional<peers::ScratchFolder> scratch;
+  if (lammps) {
+    scratch.emplace();
+    peers::writeLammpsData(scratch->path() / "grains.data", c.scene, c.grains);
+  }
+  for (int round = 1; round <= rounds; ++round)
+    for (const int threads : {1, 2}) {
+      // Who begins alternates, so that a drift of the machine favours nobody.
+      for (const bool first : {true, false})
+        if (first == (round % 2 == 1))
+          timings.push_back(runOurs(c, threads, contacts, round));
+        else if (lammps)
+          timings.push_back(runLammpsOn(c, scratch->path(), threads, round));
+      const Timing& last = timings.back();
+      std::cerr << fmt::format("{} round {}/{}, {} threads: {} {:.2f} million grain-steps/s\n", c.name, round,
+                               rounds, threads, last.program, last.rate() / 1e6);
+    }
+  if (lammps) compareEnergies(timings, c.name);
+}
+
+void write(const std::string& file, const std::string& text) {
+  if (!file.empty() && !(std::ofstream(file) << text)) throw RunError("cannot write " + file);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  const std::string file = argc > 2 && std::string(argv[1]) == "--csv" ? argv[2] : "";
-  std::string csv = "case,program,threads,precision,grains,steps,cpu_s,wall_s,grain_steps_per_cpu_s,bytes_"
-                    "per_grain,check\n";
-  for (const bool friction : {true, false})
-    for (const int threads : {1, 2}) {
-      const int across = 20, layers = 25;
-      DemSolver solver(bedScene(across, friction), {threads});
-      solver.add(bed(across, layers));
-      const std::string name = friction ? "bed_10k" : "bed_10k_frictionless";
-      csv += row(name + "_settling", solver, threads, 6000);
-      csv += row(name + "_settled", solver, threads, 3000);
+  CLI::App app{"speed of the contact core"};
+  std::string csvFile, tableFile;
+  std::vector<std::string> cases;
+  bool quick = false, alone = false;
+  int rounds = 5;
+  app.add_option("--csv", csvFile, "every round of every case");
+  app.add_option("--table", tableFile, "medians, as Markdown");
+  app.add_option("--case", cases, "only these cases");
+  app.add_option("--rounds", rounds, "how often everybody takes a turn")->check(CLI::Range(1, 100));
+  app.add_flag("--quick", quick, "small beds, one round: shows that the bench works");
+  app.add_flag("--alone", alone, "without other programs");
+  CLI11_PARSE(app, argc, argv);
+  if (quick) rounds = 1;
+  if (cases.empty()) cases = coreCaseNames();
+  try {
+    const std::string version = alone ? "" : peers::lammpsVersion();
+    std::cerr << (version.empty() ? "without LAMMPS" : version) << "\n";
+    std::vector<Timing> timings;
+    for (const std::string& name : cases) {
+      std::cerr << name << ": making its grains\n";
+      const CoreCase c = makeCoreCase(name, quick);
+      const bool withLammps = !c.lammps.empty();
+      measure(c, rounds, withLammps && !version.empty(), timings);
+      if (withLammps && version.empty()) timings.push_back(notInstalled(name, "lammps"));
+      write(csvFile, csv(timings)); // as it grows: a long bench may be stopped
+      write(tableFile,
+            fmt::format("Made by `./bootstrap bench core` on {}; {}; {} rounds.\n\n", peers::circumstances(),
+                        version.empty() ? "without LAMMPS" : version, rounds) +
+                summary(timings));
     }
-  std::cout << csv;
-  if (!file.empty() && !(std::ofstream(file) << csv)) {
-    std::cerr << "bench: cannot write " << file << "\n";
+    std::cout << csv(timings);
+    std::cerr << "\n" << summary(timings);
+  } catch (const std::exception& e) {
+    std::cerr << "bench: " << e.what() << "\n";
     return 1;
   }
 }

@@ -9,6 +9,8 @@
 #include "sim/walls/wall_registry.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace sandglass::test {
 
@@ -31,11 +33,12 @@ public:
     for (const auto& grain : grains) {
       grains_.push_back(grain);
       nextId_ = std::max(nextId_, grain.id + 1);
-      ++flow_.grainsEntered;
-      flow_.massEntered += grainMass(scene_, grain);
+      ++(grain.life > 0 ? flow_.grainsRecycled : flow_.grainsEntered);
+      (grain.life > 0 ? flow_.massRecycled : flow_.massEntered) += grainMass(scene_, grain);
     }
   }
   void removeWall(const std::string&) override { floor_ = false; }
+  void setDrag(double rate) override { drag_ = rate; }
 
   void advance(std::int64_t steps) override {
     for (; steps > 0; --steps) {
@@ -46,11 +49,14 @@ public:
         grain.position += dt_ * grain.velocity;
         grain.velocity += 0.5 * dt_ * scene_.gravity;
         if (floor_ && grain.position.z() < grain.radius && grain.velocity.z() < 0) grain.velocity.z() *= -1;
+        grain.velocity *= std::exp(-drag_ * dt_);
         if (faults_.heatFrom >= 0 && step_ >= faults_.heatFrom) grain.velocity *= faults_.heat;
       }
       std::erase_if(grains_, [&](const GrainSeed& grain) {
-        for (const auto& outlet : scene_.outlets) {
+        for (std::size_t o = 0; o < scene_.outlets.size(); ++o) {
+          const auto& outlet = scene_.outlets[o];
           if ((grain.position - outlet.point).dot(outlet.normal) <= 0) continue;
+          if (outlet.recycle || outlet.record) left_.push_back({grain, static_cast<int>(o), time(), 0});
           ++flow_.grainsDischarged;
           flow_.massDischarged += grainMass(scene_, grain);
           flow_.lastDischarge = time();
@@ -71,6 +77,14 @@ public:
       return (grain.position - x).norm() < grain.radius + radius;
     });
   }
+
+  double greatestSpeed() const override {
+    double greatest = 0;
+    for (const auto& grain : grains_)
+      greatest = std::max(greatest, grain.velocity.norm());
+    return greatest;
+  }
+  std::vector<LeftGrain> takeLeft() override { return std::exchange(left_, {}); }
 
   FramePtr frame() const override {
     auto frame = std::make_shared<Frame>();
@@ -109,7 +123,7 @@ public:
     ByteWriter out;
     out << step_ << nextId_ << floor_ << flow_ << static_cast<std::uint64_t>(grains_.size());
     for (const auto& g : grains_) {
-      out << g.id << g.species << g.radius;
+      out << g.id << g.species << g.radius << g.life;
       for (const auto* v : {&g.position, &g.velocity, &g.spin})
         for (int k = 0; k < 3; ++k)
           out << (*v)[k];
@@ -122,7 +136,7 @@ public:
     in >> step_ >> nextId_ >> floor_ >> flow_ >> count;
     grains_.assign(count, {});
     for (auto& g : grains_) {
-      in >> g.id >> g.species >> g.radius;
+      in >> g.id >> g.species >> g.radius >> g.life;
       for (auto* v : {&g.position, &g.velocity, &g.spin})
         for (int k = 0; k < 3; ++k)
           in >> (*v)[k];
@@ -131,7 +145,8 @@ public:
 
 private:
   const Scene& scene_;
-  double dt_;
+  double dt_, drag_ = 0;
+  std::vector<LeftGrain> left_;
   FakeFaults faults_;
   std::shared_ptr<const WallShape> shape_;
   std::int64_t step_ = 0, nextId_ = 0;

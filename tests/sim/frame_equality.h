@@ -42,6 +42,15 @@ inline void requireEqual(const Frame& a, const Frame& b) {
     REQUIRE(sameBits(a.walls[w].velocity, b.walls[w].velocity));
     REQUIRE(sameBits(a.walls[w].force, b.walls[w].force));
     REQUIRE(sameBits(a.walls[w].torque, b.walls[w].torque));
+    REQUIRE(sameBits(a.walls[w].spin, b.walls[w].spin));
+    REQUIRE(sameBits(a.walls[w].reference, b.walls[w].reference));
+    REQUIRE(sameBits(a.walls[w].translation, b.walls[w].translation));
+    REQUIRE(a.walls[w].rotation.coeffs() == b.walls[w].rotation.coeffs());
+    REQUIRE(a.walls[w].moving == b.walls[w].moving);
+    REQUIRE(a.walls[w].work == b.walls[w].work);
+    REQUIRE(a.walls[w].power == b.walls[w].power);
+    REQUIRE(a.walls[w].wearWork == b.walls[w].wearWork);
+    REQUIRE(a.walls[w].collisions == b.walls[w].collisions);
   }
   REQUIRE(a.contacts.size() == b.contacts.size());
   for (std::size_t c = 0; c < a.contacts.size(); ++c) {

@@ -48,6 +48,17 @@ Frame randomFrame(std::size_t grains, std::int64_t step, std::size_t contacts) {
   f.domain = {vec(), vec(), {false, true, false}};
   f.walls.push_back({"floor", std::make_shared<FlatShape>(), true, vec(), vec(), vec()});
   f.walls.push_back({"gate", std::make_shared<FlatShape>(), step < 20, vec(), vec(), vec()});
+  FrameWall& drum = f.walls.emplace_back(f.walls.front());
+  drum.name = "drum";
+  drum.moving = true;
+  drum.rotation = Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal());
+  drum.spin = vec();
+  drum.reference = vec();
+  drum.translation = vec();
+  drum.work = random.normal();
+  drum.power = random.normal();
+  drum.wearWork = random.uniform();
+  drum.collisions = step;
   for (std::size_t c = 0; c < contacts; ++c)
     f.contacts.push_back(
         {static_cast<std::int64_t>(c), c % 2 ? -1 : 7, c % 2 ? 1 : -1, {0, -1, 2}, vec(), vec(), vec()});

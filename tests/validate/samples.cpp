@@ -47,8 +47,15 @@ void twoGrains(const std::string& scene, std::vector<Row>& rows) {
   const Full run(scene, "energy");
   const auto& v = run.last->vector(quantity::velocity);
   const double e = (v.at(1) - v.at(0)).norm() / 0.2;
-  rows.push_back(
-      {"two_grains", "restitution", e, 0, "0.9", "1 %", "the scene's own law", std::abs(e / 0.9 - 1) < 0.01});
+  rows.push_back({"two_grains",
+                  "restitution",
+                  e,
+                  0,
+                  "0.9",
+                  "1 %",
+                  "the scene's own law",
+                  std::abs(e / 0.9 - 1) < 0.01,
+                  {}});
   const double p = (v[0] + v[1]).norm() / 0.1;
   rows.push_back(
       {"two_grains", "momentum over that of one grain", p, 0, "0", "1e-12", "conservation", p < 1e-12});

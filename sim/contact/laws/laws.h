@@ -6,6 +6,7 @@
 namespace sandglass {
 
 LawKind linearNormalLaw();
+LawKind waltonBraunNormalLaw();
 LawKind hertzNormalLaw();
 LawKind noTangentialLaw();
 LawKind springTangentialLaw();

@@ -2,11 +2,14 @@
 // Restitution and collision time of a pair of reduced mass m (Schaefer, Dippel, Wolf, J. Phys. I 6, 5
 // (1996)):
 //   e = exp(-gamma t_c / (2 m)),  t_c = pi / sqrt(k/m - (gamma/2m)^2),
-// hence k = m (pi^2 + ln^2 e) / t_c^2. The dashpot follows each pair's own mass, so e does not depend on
-// size.
+// hence k = m (pi^2 + ln^2 e) / t_c^2. The dashpot is given by
+//   restitution:   gamma = 2 zeta sqrt(k m), so e does not depend on size, or by
+//   damping_rate:  gamma = rate m, so the collision's decay time 2 / rate does not depend on size.
+// Where all pairs of a type have one reduced mass, gamma is a constant and no mass is read.
 
 #include "sim/base/error.h"
 #include "sim/contact/law_loop.h"
+#include "sim/contact/laws/law_options.h"
 #include "sim/contact/laws/laws.h"
 #include "sim/contact/restitution.h"
 
@@ -18,44 +21,41 @@ namespace sandglass {
 
 namespace {
 
-constexpr double unlimited = 1e30;
-
 class LinearNormal final : public LawLoop<LinearNormal> {
 public:
   explicit LinearNormal(const LawContext& context) {
     for (const PairType& t : context.types) {
       Constants<double> c;
       if (t.used) {
-        const double e = t.parameters.number("restitution");
-        const bool clamp = t.parameters.boolean("clamp_attraction");
-        c.floor = clamp ? 0.0 : -unlimited;
-        c.zeta = clamp ? dampingRatioClamped(e) : dampingRatio(e);
-        const bool given = t.parameters.has("stiffness"), timed = t.parameters.has("collision_time");
-        if (given == timed)
-          throw InputError("a linear contact needs either stiffness or collision_time, and not both");
-        if (given) {
-          c.k = t.parameters.number("stiffness");
+        const Parameters& p = t.parameters;
+        const bool clamp = p.boolean("clamp_attraction");
+        c.floor = attractionFloor(p);
+        if (requireOne(p, "a linear contact", "restitution", "damping_rate")) {
+          const double e = p.number("restitution");
+          c.zeta = clamp ? dampingRatioClamped(e) : dampingRatio(e);
         } else {
-          const double l = std::log(e), tc = t.parameters.number("collision_time");
+          c.rate = p.number("damping_rate");
+        }
+        if (requireOne(p, "a linear contact", "stiffness", "collision_time")) {
+          c.k = p.number("stiffness");
+        } else {
+          const double tc = p.number("collision_time");
+          const double l = c.rate > 0.0 ? 0.5 * c.rate * tc : -std::log(p.number("restitution", 1.0));
           c.k = t.referenceMass * (std::numbers::pi * std::numbers::pi + l * l) / (tc * tc);
         }
+        c.gamma = damping(c, t.uniformMass);
+        constantDamping_ = constantDamping_ && t.uniformMass > 0.0;
       }
       table_.push_back(c);
     }
   }
 
   template <class Real, class Table>
-  SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
-    for (int i = 0; i < b.size; ++i) {
-      const auto c = table(i);
-      const Real gamma = 2 * c.zeta * std::sqrt(c.k * b.effectiveMass[i]);
-      Real force = std::max(c.k * b.overlap[i] - gamma * b.vn[i], c.floor);
-      force = b.overlap[i] > 0 ? force : 0;
-      b.stiffness[i] = c.k;
-      b.damping[i] = gamma;
-      b.normalForce[i] += force;
-      b.contactForce[i] += std::max(force, Real(0));
-    }
+  SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int, const Table& table) const {
+    if (constantDamping_)
+      spring<true>(b, table);
+    else
+      spring<false>(b, table);
   }
 
   double storedEnergy(const ContactBlock& b, int i, int) const override {
@@ -66,15 +66,39 @@ public:
   double collisionTime(int type, double mass, double, double) const override {
     // Overdamped contacts creep apart; their spring alone still limits the step.
     const auto& c = table_[type];
-    return std::numbers::pi / std::sqrt(c.k / mass * std::max(1.0 - c.zeta * c.zeta, 0.1));
+    const double zeta = c.zeta + 0.5 * c.rate * std::sqrt(mass / c.k);
+    return std::numbers::pi / std::sqrt(c.k / mass * std::max(1.0 - zeta * zeta, 0.1));
   }
 
-  unsigned reads() const override { return effectiveMass; }
+  unsigned reads() const override { return constantDamping_ ? 0u : unsigned{effectiveMass}; }
 
   template <class Real> struct Constants {
-    Real k = 0, zeta = 0, floor = 0; ///< floor [N]: the most attractive force allowed
+    Real k = 0, zeta = 0, rate = 0, floor = 0; ///< floor [N]: the most attractive force allowed
+    Real gamma = 0;                            ///< [kg/s] where all pairs have one reduced mass
   };
   std::vector<Constants<double>> table_;
+
+private:
+  template <class Real> SANDGLASS_LOOP static Real damping(const Constants<Real>& c, Real mass) {
+    return 2 * c.zeta * std::sqrt(c.k * mass) + c.rate * mass;
+  }
+
+  template <bool constantDamping, class Real, class Table>
+  SANDGLASS_LOOP static void spring(ContactBlockOf<Real>& b, const Table& table) {
+    for (int i = 0; i < b.size; ++i) {
+      const auto c = table(i);
+      Real gamma = c.gamma;
+      if constexpr (!constantDamping) gamma = damping(c, b.effectiveMass[i]);
+      Real force = std::max(c.k * b.overlap[i] - gamma * b.vn[i], c.floor);
+      force = b.overlap[i] > 0 ? force : 0;
+      b.stiffness[i] = c.k;
+      b.damping[i] = gamma;
+      b.normalForce[i] += force;
+      b.contactForce[i] += std::max(force, Real(0));
+    }
+  }
+
+  bool constantDamping_ = true;
 };
 
 } // namespace
@@ -91,15 +115,21 @@ LawKind linearNormalLaw() {
                      0.0,
                      1e30,
                      true};
-  ParameterSpec e{
-      "restitution", ParameterType::number, "1", "coefficient of restitution", {}, false, 0.0, 1.0, true};
-  ParameterSpec clamp{"clamp_attraction", ParameterType::boolean, "1",
-                      "cut the dashpot's attraction while parting", ParameterValue(false)};
+  ParameterSpec e{"restitution", ParameterType::number, "1", "coefficient of restitution", {}, true, 0.0, 1.0,
+                  true};
+  ParameterSpec rate{"damping_rate",
+                     ParameterType::number,
+                     "1/s",
+                     "dashpot over reduced mass, instead of restitution",
+                     {},
+                     true,
+                     0.0,
+                     1e30};
   return {"linear",
           LawRole::normal,
           "linear spring and dashpot",
           false,
-          {stiffness, time, e, clamp},
+          {stiffness, time, e, rate, clampAttraction()},
           [](const LawContext& c) { return std::make_unique<LinearNormal>(c); }};
 }
 

@@ -1,12 +1,15 @@
 // Tangential spring with history and Coulomb limit (Cundall, Strack, Geotechnique 29, 47 (1979)).
-// The displacement s is kept as a vector: turned into the present tangent plane at unchanged length, then
+// The displacement s is kept as a vector: turned into the present tangent plane at unchanged length
+// (rotation = "turn") or projected on it ("project", which loses a little length as the contact rolls), then
 //   s += v_t dt,  F_t = -k_t s - gamma_t v_t,  |F_t| <= mu F_n,
-// and where the limit binds, s is set to what carries the limit force.
+// and where the limit binds, s is set to what carries the limit force. The dashpot is a share of the normal
+// one (damping_ratio) or damping_rate times the reduced mass.
 // k_t is a share of the normal stiffness: given ("spring"), or 4 G*/E* ("mindlin"), which with a Hertz
 // normal law is Mindlin's no-slip stiffness 8 G* sqrt(R overlap).
 
 #include "sim/base/error.h"
 #include "sim/contact/law_loop.h"
+#include "sim/contact/laws/law_options.h"
 #include "sim/contact/laws/laws.h"
 
 #include <cmath>
@@ -21,10 +24,20 @@ public:
     for (const PairType& t : context.types) {
       Constants<double> c;
       if (t.used) {
-        c.friction = t.parameters.number("friction");
-        c.ratio = mindlin ? 4.0 * t.effectiveShearModulus / t.effectiveYoungsModulus
-                          : t.parameters.number("stiffness_ratio");
-        c.damping = t.parameters.number("damping_ratio", mindlin ? std::sqrt(c.ratio) : 0.0);
+        const Parameters& p = t.parameters;
+        c.friction = p.number("friction");
+        c.ratio =
+            mindlin ? 4.0 * t.effectiveShearModulus / t.effectiveYoungsModulus : p.number("stiffness_ratio");
+        if (p.has("damping_ratio") && p.has("damping_rate"))
+          throw InputError("a tangential spring takes either damping_ratio or damping_rate, and not both");
+        c.rate = p.number("damping_rate", 0.0);
+        const double usual = mindlin && !p.has("damping_rate") ? std::sqrt(c.ratio) : 0.0;
+        c.damping = p.number("damping_ratio", usual);
+        c.gamma = c.rate * t.uniformMass;
+        oneMass_ = oneMass_ && t.uniformMass > 0.0;
+        rated_ = rated_ || c.rate > 0.0;
+        project_.take(p.text("rotation") == "project");
+        fullArm_.take(readsFullRadiusArm(p));
       }
       table_.push_back(c);
     }
@@ -32,21 +45,59 @@ public:
 
   int historySize() const override { return 3; }
   bool turnsGrains() const override { return true; }
+  bool fullRadiusArm() const override { return fullArm_.value(); }
 
   template <class Real, class Table>
   SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
+    const bool masses = rated_ && !oneMass_;
+    if (project_.value())
+      masses ? spring<true, true>(b, first, table) : spring<true, false>(b, first, table);
+    else
+      masses ? spring<false, true>(b, first, table) : spring<false, false>(b, first, table);
+  }
+
+  double storedEnergy(const ContactBlock& b, int i, int first) const override {
+    double s2 = 0.0;
+    for (int k = 0; k < 3; ++k)
+      s2 += b.history[first + k][i] * b.history[first + k][i];
+    return 0.5 * table_[b.type[i]].ratio * b.stiffness[i] * s2;
+  }
+
+  unsigned reads() const override { return rated_ && !oneMass_ ? unsigned{effectiveMass} : 0u; }
+
+  template <class Real> struct Constants {
+    Real friction = 0, ratio = 0;
+    Real damping = 0; ///< share of the normal dashpot
+    Real rate = 0;    ///< [1/s] dashpot over reduced mass
+    Real gamma = 0;   ///< [kg/s] rate times mass, where all pairs have one reduced mass
+  };
+  std::vector<Constants<double>> table_;
+
+private:
+  template <bool project, bool masses, class Real, class Table>
+  SANDGLASS_LOOP static void spring(ContactBlockOf<Real>& b, int first, const Table& table) {
     Real *sx = b.history[first], *sy = b.history[first + 1], *sz = b.history[first + 2];
     for (int i = 0; i < b.size; ++i) {
       const auto c = table(i);
-      const Real old2 = sx[i] * sx[i] + sy[i] * sy[i] + sz[i] * sz[i];
       const Real along = sx[i] * b.nx[i] + sy[i] * b.ny[i] + sz[i] * b.nz[i];
       Real x = sx[i] - along * b.nx[i], y = sy[i] - along * b.ny[i], z = sz[i] - along * b.nz[i];
-      const Real now2 = x * x + y * y + z * z;
-      const Real keep = now2 > 0 ? std::sqrt(old2 / now2) : Real(1);
-      x = x * keep + b.vtx[i] * b.dt;
-      y = y * keep + b.vty[i] * b.dt;
-      z = z * keep + b.vtz[i] * b.dt;
-      const Real kt = c.ratio * b.stiffness[i], gamma = c.damping * b.damping[i];
+      if constexpr (!project) {
+        const Real old2 = sx[i] * sx[i] + sy[i] * sy[i] + sz[i] * sz[i];
+        const Real now2 = x * x + y * y + z * z;
+        const Real keep = now2 > 0 ? std::sqrt(old2 / now2) : Real(1);
+        x *= keep;
+        y *= keep;
+        z *= keep;
+      }
+      x += b.vtx[i] * b.dt;
+      y += b.vty[i] * b.dt;
+      z += b.vtz[i] * b.dt;
+      const Real kt = c.ratio * b.stiffness[i];
+      Real gamma = c.damping * b.damping[i];
+      if constexpr (masses)
+        gamma += c.rate * b.effectiveMass[i];
+      else
+        gamma += c.gamma;
       Real fx = -kt * x - gamma * b.vtx[i], fy = -kt * y - gamma * b.vty[i], fz = -kt * z - gamma * b.vtz[i];
       const Real f2 = fx * fx + fy * fy + fz * fz, limit = c.friction * b.contactForce[i];
       const bool slides = f2 > limit * limit;
@@ -68,17 +119,8 @@ public:
     }
   }
 
-  double storedEnergy(const ContactBlock& b, int i, int first) const override {
-    double s2 = 0.0;
-    for (int k = 0; k < 3; ++k)
-      s2 += b.history[first + k][i] * b.history[first + k][i];
-    return 0.5 * table_[b.type[i]].ratio * b.stiffness[i] * s2;
-  }
-
-  unsigned reads() const override { return 0; }
-
-  template <class Real> struct Constants { Real friction = 0, ratio = 0, damping = 0; };
-  std::vector<Constants<double>> table_;
+  bool oneMass_ = true, rated_ = false;
+  SharedChoice project_{"rotation"}, fullArm_{"arm"};
 };
 
 /// Frictionless: no history, no torque, no spin.
@@ -91,6 +133,22 @@ const ParameterSpec friction{"friction", ParameterType::number, "1", "Coulomb co
                              100.0};
 const ParameterSpec damping{
     "damping_ratio", ParameterType::number, "1", "share of the normal dashpot", {}, true, 0.0, 100.0};
+const ParameterSpec dampingRate{"damping_rate",
+                                ParameterType::number,
+                                "1/s",
+                                "dashpot over reduced mass, instead of damping_ratio",
+                                {},
+                                true,
+                                0.0,
+                                1e30};
+
+ParameterSpec rotation() {
+  ParameterSpec spec{"rotation", ParameterType::text, "1",
+                     "how the spring follows the turning contact: turned at its length, or projected",
+                     ParameterValue(std::string("turn"))};
+  spec.choices = {"turn", "project"};
+  return spec;
+}
 
 } // namespace
 
@@ -114,7 +172,7 @@ LawKind springTangentialLaw() {
           LawRole::tangential,
           "tangential spring with history and Coulomb limit",
           false,
-          {friction, ratio, damping},
+          {friction, ratio, damping, dampingRate, rotation(), contactArm()},
           [](const LawContext& c) { return std::make_unique<SpringTangential>(c, false); }};
 }
 
@@ -123,7 +181,7 @@ LawKind mindlinTangentialLaw() {
           LawRole::tangential,
           "Mindlin's no-slip stiffness with Coulomb limit",
           true,
-          {friction, damping},
+          {friction, damping, dampingRate, rotation(), contactArm()},
           [](const LawContext& c) { return std::make_unique<SpringTangential>(c, true); }};
 }
 

@@ -56,11 +56,12 @@ bool DemSolver::isFree(const Vec3& position, double radius) const {
   for (const SolverWall& w : walls_) {
     if (!w.active) continue;
     WallShape::Touches touches;
-    w.shape->touches(position, radius, touches);
-    if (touches.count > 0 || w.shape->signedDistance(position) < 0.0) return false;
+    w.touches(position, radius, touches);
+    if (touches.count > 0 || w.shape->signedDistance(w.pose.toBody(position)) < 0.0) return false;
   }
   const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
-  for (const Quad& q : grains_.place) {
+  for (std::size_t i = 0; i < grains_.size(); ++i) {
+    const Quad& q = grains_.place[i];
     Vec3 d = q.vec() - position;
     for (int k = 0; k < 3; ++k)
       if (scene_.domain.periodic[k]) d[k] -= extent[k] * std::round(d[k] / extent[k]);

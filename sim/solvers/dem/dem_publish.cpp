@@ -41,12 +41,13 @@ FramePtr DemSolver::frame() const {
     for (std::int32_t i : order)
       out.push_back(value(i));
   };
-  const auto vectors = [&](const char* name, const std::vector<Quad>& from) {
+  const auto vectors = [&](const char* name, auto&& value) {
     auto& out = frame->vectors[name];
     out.reserve(order.size());
     for (std::int32_t i : order)
-      out.push_back(from[i].vec());
+      out.push_back(value(i));
   };
+  const FullStep& full = fullStep();
   for (std::int32_t i : order) {
     frame->id.push_back(grains_.id[i]);
     frame->position.push_back(wrapped(grains_.place[i].vec()));
@@ -57,14 +58,23 @@ FramePtr DemSolver::frame() const {
   if (wants(quantity::mass)) scalars(quantity::mass, [&](std::int32_t i) { return grains_.mass(i); });
   for (std::size_t q = 0; q < grains_.quantityNames.size(); ++q)
     scalars(grains_.quantityNames[q].c_str(), [&](std::int32_t i) { return grains_.quantities[q][i]; });
-  if (wants(quantity::velocity)) vectors(quantity::velocity, grains_.motion);
-  if (wants(quantity::spin) && grains_.turning) vectors(quantity::spin, grains_.spin);
-  if (wants(quantity::force)) vectors(quantity::force, grains_.force);
+  if (wants(quantity::velocity))
+    vectors(quantity::velocity, [&](std::int32_t i) { return full.velocity[i]; });
+  if (wants(quantity::spin) && grains_.turning)
+    vectors(quantity::spin, [&](std::int32_t i) { return full.spin[i]; });
+  if (wants(quantity::force))
+    vectors(quantity::force, [&](std::int32_t i) {
+      return Vec3(full.force[i].vec() + grains_.mass(i) * scene_.gravity);
+    });
+  if (wants(quantity::residenceTime))
+    scalars(quantity::residenceTime,
+            [&](std::int32_t i) { return time() - lives_.enteredAt(grains_.id[i]); });
+  if (wants(quantity::life))
+    scalars(quantity::life, [&](std::int32_t i) { return static_cast<double>(lives_.life(grains_.id[i])); });
   frame->walls = walls();
   if (!scene_.output.contacts || stale_) return frame;
 
-  auto& list = const_cast<PairList&>(list_); // visiting changes nothing
-  pairForces_.visitContacts(grains_, list, [&](std::size_t p, const ContactBlock& b, int c) {
+  pairForces_.visitContacts(dt_, [&](std::int64_t p, const ContactBlock& b, int c) {
     FrameContact contact;
     const auto [i, j] = list_.pairs()[p];
     contact.a = grains_.id[i];
@@ -72,9 +82,8 @@ FramePtr DemSolver::frame() const {
     contact.image = list_.image(p);
     contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
     contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
-    const double sum = b.radiusA[c] + b.radiusB[c];
-    contact.point =
-        wrapped(grains_.place[i].vec() - b.radiusA[c] * (sum - b.overlap[c]) / sum * contact.normal);
+    const double radius = grains_.place[i].w, sum = radius + grains_.place[j].w;
+    contact.point = wrapped(grains_.place[i].vec() - radius * (sum - b.overlap[c]) / sum * contact.normal);
     frame->contacts.push_back(contact);
   });
   std::sort(frame->contacts.begin(), frame->contacts.end(), [](const FrameContact& s, const FrameContact& t) {
@@ -97,48 +106,67 @@ FramePtr DemSolver::frame() const {
 Energies DemSolver::energies() const {
   Energies e;
   const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
+  const FullStep& full = fullStep();
   for (std::int32_t i : idOrder()) {
     const double m = grains_.mass(i);
     Vec3 x = grains_.place[i].vec();
     if (grains_.imaged)
       for (int k = 0; k < 3; ++k)
         x[k] += extent[k] * grains_.image[i][k]; // so falling through a periodic side is no jump
-    e.translational += 0.5 * m * grains_.motion[i].vec().squaredNorm();
+    e.translational += 0.5 * m * full.velocity[i].squaredNorm();
     e.gravitational -= m * scene_.gravity.dot(x);
-    if (grains_.turning) e.rotational += 0.5 / grains_.spin[i].w * grains_.spin[i].vec().squaredNorm();
+    if (grains_.turning) e.rotational += 0.5 * grains_.inertia(i) * full.spin[i].squaredNorm();
   }
   if (!stale_)
-    e.elastic = pairForces_.storedEnergy(grains_, const_cast<PairList&>(list_)) +
-                wallContacts_.storedEnergy(grains_, walls_);
+    e.elastic = pairForces_.storedEnergy(dt_) + wallContacts_.storedEnergy(grains_, walls_);
   return e;
+}
+
+GrainSeed DemSolver::seedOf(std::int32_t i) const {
+  GrainSeed s;
+  s.id = grains_.id[i];
+  s.species = grains_.species[i];
+  s.radius = grains_.place[i].w;
+  s.position = wrapped(grains_.place[i].vec());
+  const FullStep& full = fullStep();
+  s.velocity = full.velocity[i];
+  if (grains_.turning) s.spin = full.spin[i];
+  s.life = lives_.life(s.id);
+  return s;
 }
 
 std::vector<GrainSeed> DemSolver::present() const {
   std::vector<GrainSeed> all;
-  for (std::int32_t i : idOrder()) {
-    GrainSeed s;
-    s.id = grains_.id[i];
-    s.species = grains_.species[i];
-    s.radius = grains_.place[i].w;
-    s.position = wrapped(grains_.place[i].vec());
-    s.velocity = grains_.motion[i].vec();
-    if (grains_.turning) s.spin = grains_.spin[i].vec();
-    all.push_back(s);
+  for (std::int32_t i : idOrder())
+    all.push_back(seedOf(i));
+  return all;
+}
+
+double DemSolver::greatestSpeed() const {
+  double square = 0;
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    square = std::max(square, grains_.motion[i].vec().squaredNorm());
+  return std::sqrt(square);
+}
+
+std::vector<FrameWall> DemSolver::walls() const {
+  const FullStep& full = fullStep(); // wall forces of this instant
+  std::vector<FrameWall> all;
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    if (!stale_) wallContacts_.total(grains_, static_cast<int>(w), force, torque);
+    SolverWall wall = walls_[w];
+    wall.tally = full.tallies[w];
+    all.push_back(frameWall(wall, force, torque));
   }
   return all;
 }
 
-std::vector<FrameWall> DemSolver::walls() const {
-  std::vector<FrameWall> all;
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    FrameWall wall;
-    wall.name = walls_[w].name;
-    wall.shape = walls_[w].shape;
-    wall.active = walls_[w].active;
-    if (!stale_) wallContacts_.total(grains_, static_cast<int>(w), wall.force, wall.torque);
-    all.push_back(std::move(wall));
-  }
-  return all;
+double DemSolver::wallWork() const {
+  double sum = 0.0;
+  for (const WallTally& tally : fullStep().tallies)
+    sum += tally.work;
+  return sum;
 }
 
 namespace {
@@ -158,6 +186,13 @@ template <class T> void get(const Solver::State& state, const std::string& name,
   if (!values.empty()) std::memcpy(values.data(), it->second.data(), it->second.size());
 }
 
+struct WallState {
+  std::int64_t active;
+  MotionMarks marks;
+  double allowance, listedTime;
+  WallTally tally;
+};
+
 struct Counters {
   std::int64_t step, nextId;
   Flow flow;
@@ -168,12 +203,8 @@ struct Counters {
 Solver::State DemSolver::save() {
   prepare(); // a list that is due now would be built before the next step anyway
   State s;
-  put(s, "place", grains_.place);
-  put(s, "motion", grains_.motion);
-  put(s, "force", grains_.force);
+  put(s, "records", grains_.records());
   put(s, "listed", grains_.listed);
-  put(s, "spin", grains_.spin);
-  put(s, "torque", grains_.torque);
   put(s, "id", grains_.id);
   put(s, "species", grains_.species);
   put(s, "material", grains_.material);
@@ -182,48 +213,59 @@ Solver::State DemSolver::save() {
     put(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
   put(s, "pairs.history", list_.historyArray());
   put(s, "pairs.live", list_.liveArray());
+  put(s, "groups.moved", loop_.moved());
   put(s, "walls.history", wallContacts_.historyArray());
   put(s, "walls.feature", wallContacts_.featureArray());
-  put(s, "walls.result", wallContacts_.resultArray());
-  std::vector<std::uint8_t> active;
+  std::vector<WallState> walls;
   for (const SolverWall& w : walls_)
-    active.push_back(w.active);
-  put(s, "walls.active", active);
+    walls.push_back({w.active, w.marks, w.allowance, w.listedTime, w.tally});
+  put(s, "walls.state", walls);
+  put(s, "lives", lives_.lives());
+  put(s, "entries", lives_.entries());
   put(s, "counters", std::vector<Counters>{{step_, nextId_, flow_}});
   return s;
 }
 
 void DemSolver::load(const State& s) {
-  std::vector<std::uint8_t> active;
-  get(s, "walls.active", active);
-  if (active.size() != walls_.size())
+  std::vector<WallState> walls;
+  get(s, "walls.state", walls);
+  if (walls.size() != walls_.size())
     throw InputError(fmt::format("the checkpoint has {} walls and the scene {}; it belongs to another scene",
-                                 active.size(), walls_.size()));
-  for (std::size_t w = 0; w < walls_.size(); ++w)
-    walls_[w].active = active[w] != 0;
-  get(s, "place", grains_.place);
-  get(s, "motion", grains_.motion);
-  get(s, "force", grains_.force);
+                                 walls.size(), walls_.size()));
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    SolverWall& wall = walls_[w];
+    wall.active = walls[w].active != 0;
+    wall.marks = walls[w].marks;
+    wall.allowance = walls[w].allowance;
+    wall.listedTime = walls[w].listedTime;
+    wall.tally = walls[w].tally;
+    wall.pose = poseAt(wall, wall.listedTime); // until the list is made
+  }
   get(s, "listed", grains_.listed);
-  get(s, "spin", grains_.spin);
-  get(s, "torque", grains_.torque);
   get(s, "id", grains_.id);
   get(s, "species", grains_.species);
   get(s, "material", grains_.material);
   get(s, "image", grains_.image);
+  checkPromisedSizes();
   for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
     get(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
 
+  std::vector<Quad> records;
+  get(s, "records", records);
+  if (records.size() != (grains_.size() + 2) * grains_.quadsPerRecord())
+    throw InputError("the checkpoint's grain records do not fit the scene; it belongs to another scene or version");
+  grains_.setRecords(records);
+
   // The list as it was: built from the positions that it was built from. The sort is stable, so the storage
   // order stays, and histories fit their pairs again.
-  const std::vector<Quad> now = grains_.place;
   for (std::size_t i = 0; i < grains_.size(); ++i) {
     const Quad& l = grains_.listed[i];
     grains_.place[i] = {l.x, l.y, l.z, grains_.place[i].w};
   }
   list_.build(grains_, laws_.range(), parallel_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
-  grains_.place = now;
+  grains_.setRecords(std::move(records));
+  loop_.bind();
   const auto restore = [&](const char* name, auto& array) {
     const std::size_t expected = array.size();
     get(s, name, array);
@@ -233,17 +275,22 @@ void DemSolver::load(const State& s) {
   };
   restore("pairs.history", list_.historyArray());
   restore("pairs.live", list_.liveArray());
+  restore("groups.moved", loop_.moved());
   restore("walls.history", wallContacts_.historyArray());
   restore("walls.feature", wallContacts_.featureArray());
-  restore("walls.result", wallContacts_.resultArray());
+  get(s, "lives", lives_.lives());
+  get(s, "entries", lives_.entries());
   std::vector<Counters> counters;
   get(s, "counters", counters);
   step_ = counters.at(0).step;
   nextId_ = counters.at(0).nextId;
   flow_ = counters.at(0).flow;
   stale_ = false;
-  for (const Quad& q : grains_.place)
-    smallestRadius_ = std::min(smallestRadius_, q.w);
+  placeWalls(walls_, time(), 0.0);
+  atFullStep_.valid = false;
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    smallestRadius_ = std::min(smallestRadius_, grains_.place[i].w);
+  pairForces_.watchOverlap(scene_.accuracy.maximumOverlap, smallestRadius_);
 }
 
 } // namespace sandglass

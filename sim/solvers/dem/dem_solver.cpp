@@ -1,15 +1,14 @@
 #include "sim/solvers/dem/dem_solver.h"
 
 #include "sim/base/error.h"
+#include "sim/grains/seeding.h"
 #include "sim/solvers/dem/step_rule.h"
 #include "sim/walls/wall_registry.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 #include <numeric>
 #include <tuple>
@@ -24,14 +23,6 @@ constexpr int stepsBetweenOutletChecks = 50;
 /// A list is made to last about this many steps of straight flight, beside the skin of a grain at rest.
 constexpr double stepsOfFlight = 16;
 constexpr std::int64_t grainsPerPiece = 1024;
-
-/// Half a step of acceleration; `w` holds one over the mass or the moment of inertia.
-void halfKick(Quad& velocity, const Quad& force, double half) {
-  const double kick = half * velocity.w;
-  velocity.x += kick * force.x;
-  velocity.y += kick * force.y;
-  velocity.z += kick * force.z;
-}
 
 int materialIndex(const Scene& scene, const std::string& name) {
   for (std::size_t k = 0; k < scene.materials.size(); ++k)
@@ -51,7 +42,8 @@ LawStack stackWith(const Scene& scene, const std::vector<std::shared_ptr<const L
 DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
                      const std::vector<std::shared_ptr<const Law>>& added)
     : scene_(scene), laws_(stackWith(scene, added)), parallel_(options.threads),
-      list_(scene.domain, laws_.historySize(), laws_.outputSize()), pairForces_(laws_), wallContacts_(laws_) {
+      list_(scene.domain, laws_.historySize(), laws_.outputQuads(), laws_.hasEvents()), pairForces_(laws_),
+      wallContacts_(laws_), loop_(grains_, list_, pairForces_, wallContacts_, parallel_), lives_(scene) {
   const StepChoice choice = chooseStep(scene, laws_);
   if (choice.step > choice.stableLimit)
     throw InputError(fmt::format(
@@ -68,20 +60,24 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
   meanDiameter_ = diameter;
   skin_ = scene.accuracy.skin * diameter;
   smallestRadius_ = 0.5 * smallest;
-  grains_.turning = laws_.turning();
-  grains_.imaged = list_.periodic();
+  grains_.keep(laws_.turning(), list_.periodic());
+  pairForces_.watchOverlap(scene.accuracy.maximumOverlap, smallestRadius_);
   grains_.quantityNames = laws_.quantityNames();
   grains_.quantities.resize(grains_.quantityNames.size());
-  for (const WallSpec& w : scene.walls) {
-    SolverWall wall{w.name, nullptr, materialIndex(scene, w.material), true};
-    for (const WallKind& kind : wallKinds())
-      if (kind.name == w.shape.kind) wall.shape = kind.make(w.shape.parameters);
-    if (!wall.shape) throw InputError(fmt::format("there is no wall kind '{}'", w.shape.kind));
-    walls_.push_back(std::move(wall));
-  }
+  walls_ = makeSolverWalls(scene);
+  wallRadius_ = farthestReach(walls_, scene.domain) + meanDiameter_ + skin_;
+  if (const double fastest = fastestWall(scene); fastest * dt_ > 0.25 * smallestRadius_)
+    throw InputError(
+        fmt::format("a wall moves at up to {:.3g} m/s, {:.3g} m in a step of {:.3g} s, more than a quarter "
+                    "of the smallest "
+                    "radius ({:.3g} m), and could jump over a grain; slow it down or lower time_step",
+                    fastest, fastest * dt_, dt_, smallestRadius_));
 }
 
 void DemSolver::add(const std::vector<GrainSeed>& seeds) {
+  if (seeds.empty()) return;
+  toFullStep();
+  atFullStep_.valid = false;
   const std::size_t before = grains_.size();
   grains_.resize(before + seeds.size());
   for (std::size_t k = 0; k < seeds.size(); ++k) {
@@ -93,128 +89,189 @@ void DemSolver::add(const std::vector<GrainSeed>& seeds) {
     grains_.place[i] = {s.position.x(), s.position.y(), s.position.z(), s.radius};
     grains_.motion[i] = {s.velocity.x(), s.velocity.y(), s.velocity.z(), 1.0 / mass};
     if (grains_.turning)
-      grains_.spin[i] = {s.spin.x(), s.spin.y(), s.spin.z(), 2.5 / (mass * s.radius * s.radius)};
+      grains_.roll[i] = {s.radius * s.spin.x(), s.radius * s.spin.y(), s.radius * s.spin.z(), 1.0 / s.radius};
     grains_.id[i] = s.id;
     grains_.species[i] = static_cast<std::int16_t>(s.species);
     grains_.material[i] = static_cast<std::uint8_t>(materialIndex(scene_, species.material));
+    for (std::size_t q = 0; q < s.quantities.size(); ++q)
+      grains_.quantities.at(q)[i] = s.quantities[q];
     nextId_ = std::max(nextId_, s.id + 1);
-    flow_.massEntered += mass;
+    lives_.entered(s.id, s.life, time());
+    (s.life > 0 ? flow_.massRecycled : flow_.massEntered) += mass;
+    ++(s.life > 0 ? flow_.grainsRecycled : flow_.grainsEntered);
     smallestRadius_ = std::min(smallestRadius_, s.radius);
   }
-  flow_.grainsEntered += static_cast<std::int64_t>(seeds.size());
-  stale_ = stale_ || !seeds.empty();
+  pairForces_.watchOverlap(scene_.accuracy.maximumOverlap, smallestRadius_);
+  checkPromisedSizes();
+}
+
+void DemSolver::checkPromisedSizes() {
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    if (!laws_.asPromised(grains_.material[i], grains_.motion[i].w)) return laws_.allowAnySize(scene_);
 }
 
 void DemSolver::removeWall(const std::string& name) {
   for (SolverWall& w : walls_)
     if (w.name == name) {
+      toFullStep();
       w.active = false;
-      stale_ = true;
       return;
     }
   throw InputError(fmt::format("there is no wall '{}' to remove", name));
 }
 
+void DemSolver::beginStage(const std::string& name) {
+  markStage(walls_, name, time());
+  placeWalls(walls_, time(), 0.0);
+  atFullStep_.valid = false;
+}
+
 void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
-  // A fast grain may go further before the list is too old: a stream that falls beside a bed at rest would
-  // otherwise have the whole bed listed anew every few steps.
+  // Fast grains may go further before the list is too old: a stream that falls beside a bed at rest would
+  // otherwise have the whole bed listed anew every few steps. The grains of a group share what they may move.
   const double look = stepsOfFlight * dt_, most = 0.25 * meanDiameter_;
+  const auto allow = [&](std::size_t first, std::size_t last) {
+    double fastest = 0.0;
+    for (std::size_t i = first; i < last; ++i)
+      fastest = std::max(fastest, grains_.motion[i].vec().squaredNorm());
+    for (std::size_t i = first; i < last; ++i)
+      grains_.listed[i].w = 0.5 * skin_ + std::min(look * std::sqrt(fastest), most);
+  };
   for (std::size_t i = 0; i < grains_.size(); ++i)
-    grains_.listed[i].w = 0.5 * skin_ + std::min(look * grains_.motion[i].vec().norm(), most);
-  list_.build(grains_, laws_.range(), parallel_, drop);
+    allow(i, i + 1);
+  list_.build(grains_, laws_.range(), parallel_, drop, [&](std::int64_t first, std::int64_t last) {
+    allow(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
+  });
+  allowTravel(walls_, dt_, skin_, meanDiameter_, wallRadius_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
+  loop_.bind();
+  atFullStep_.valid = false;
   ++rebuilds_;
+}
+
+const DemSolver::FullStep& DemSolver::fullStep() const {
+  FullStep& full = atFullStep_;
+  if (full.valid) return full;
+  const std::size_t n = grains_.size();
+  full.velocity.resize(n);
+  full.spin.resize(grains_.turning ? n : 0);
+  if (stale_) { // velocities are those of the full step already, and nobody knows the forces yet
+    full.force.assign(n, {});
+    full.tallies.clear();
+    for (const SolverWall& wall : walls_)
+      full.tallies.push_back(wall.tally);
+    for (std::size_t i = 0; i < n; ++i) {
+      full.velocity[i] = grains_.motion[i].vec();
+      if (grains_.turning) full.spin[i] = grains_.spin(i);
+    }
+    full.valid = true;
+    return full;
+  }
+  evaluate(full.force, full.torque);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double kick = 0.5 * dt_ * grains_.motion[i].w;
+    full.velocity[i] = grains_.motion[i].vec() + kick * full.force[i].vec() + 0.5 * dt_ * scene_.gravity;
+    if (grains_.turning)
+      full.spin[i] = grains_.spin(i) + 0.5 * dt_ / grains_.inertia(i) * full.torque[i].vec();
+  }
+  full.valid = true;
+  return full;
+}
+
+void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) const {
+  // What is evaluated here is evaluated once more by the next step: histories stay as they are.
+  auto& walls = const_cast<WallContacts&>(wallContacts_);
+  const auto history = walls.historyArray();
+  const auto feature = walls.featureArray();
+  DeepestOverlap deepest;
+  placeWalls(walls_, time(), stale_ ? 0.0 : dt_);
+  walls.step(grains_, walls_, dt_, parallel_, deepest);
+  loop_.forces(dt_, force, torque);
+  walls.historyArray() = history;
+  walls.featureArray() = feature;
+  auto tallied = walls_;
+  walls.tally(grains_, tallied, step_ == 0 ? 0.0 : dt_);
+  atFullStep_.tallies.clear();
+  for (const SolverWall& wall : tallied)
+    atFullStep_.tallies.push_back(wall.tally);
+  placeWalls(walls_, time(), 0.0); // as frames show them
+}
+
+void DemSolver::toFullStep() {
+  if (stale_) return;
+  const FullStep& full = fullStep();
+  for (std::size_t i = 0; i < grains_.size(); ++i) {
+    Quad& v = grains_.motion[i];
+    const Vec3& now = full.velocity[i];
+    v = {now.x(), now.y(), now.z(), v.w};
+    if (!grains_.turning) continue;
+    Quad& u = grains_.roll[i];
+    const Vec3 surface = grains_.place[i].w * full.spin[i];
+    u = {surface.x(), surface.y(), surface.z(), u.w};
+  }
+  stale_ = true;
+  atFullStep_.valid = false;
 }
 
 void DemSolver::prepare() {
   if (!stale_) return;
   rebuild();
-  forces(0.0); // histories stand still; new grains get their first force
+  std::vector<Quad> force, torque;
+  evaluate(force, torque);
+  for (std::size_t i = 0; i < grains_.size(); ++i) { // half a step back
+    Quad& v = grains_.motion[i];
+    const Vec3 before = v.vec() - 0.5 * dt_ * (v.w * force[i].vec() + scene_.gravity);
+    v = {before.x(), before.y(), before.z(), v.w};
+    if (!grains_.turning) continue;
+    Quad& u = grains_.roll[i];
+    const Vec3 rolled = u.vec() - 0.5 * dt_ * grains_.place[i].w / grains_.inertia(i) * torque[i].vec();
+    u = {rolled.x(), rolled.y(), rolled.z(), u.w};
+  }
   stale_ = false;
+  atFullStep_.valid = false;
 }
 
 void DemSolver::advance(std::int64_t steps) {
   prepare();
+  placeWalls(walls_, time(), dt_);
   for (std::int64_t k = 0; k < steps; ++k)
     stepOnce();
+  placeWalls(walls_, time(), 0.0); // velocities of now, for frames
+}
+
+void DemSolver::damp() {
+  const double factor = std::exp(-drag_ * dt_);
+  const auto slow = [&](Quad& v) {
+    v.x *= factor;
+    v.y *= factor;
+    v.z *= factor;
+  };
+  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
+                     [&](std::int64_t first, std::int64_t last) {
+                       for (std::int64_t i = first; i < last; ++i) {
+                         slow(grains_.motion[i]);
+                         if (grains_.turning) slow(grains_.roll[i]);
+                       }
+                     });
 }
 
 void DemSolver::stepOnce() {
-  if (drift()) {
-    checkEscapes();
-    rebuild();
-  }
-  forces(dt_);
-  kick();
-  ++step_;
-  if (step_ % stepsBetweenOutletChecks == 0) discharge();
-}
-
-bool DemSolver::drift() {
-  const double half = 0.5 * dt_;
-  const double tooFast = 0.0625 * smallestRadius_ * smallestRadius_ / (dt_ * dt_); // a quarter radius a step
-  std::atomic<bool> old{false}, bad{false};
-  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
-                     [&](std::int64_t first, std::int64_t last) {
-                       bool late = false, wrong = false;
-                       for (std::int64_t i = first; i < last; ++i) {
-                         Quad &x = grains_.place[i], &v = grains_.motion[i];
-                         const Quad &f = grains_.force[i], &l = grains_.listed[i];
-                         halfKick(v, f, half);
-                         x.x += dt_ * v.x;
-                         x.y += dt_ * v.y;
-                         x.z += dt_ * v.z;
-                         const double dx = x.x - l.x, dy = x.y - l.y, dz = x.z - l.z;
-                         late = late || dx * dx + dy * dy + dz * dz > l.w * l.w;
-                         wrong = wrong || !(v.x * v.x + v.y * v.y + v.z * v.z <= tooFast); // catches NaN too
-                       }
-                       if (grains_.turning)
-                         for (std::int64_t i = first; i < last; ++i) {
-                           Quad& w = grains_.spin[i];
-                           const Quad& t = grains_.torque[i];
-                           halfKick(w, t, half);
-                         }
-                       if (late) old = true;
-                       if (wrong) bad = true;
-                     });
-  if (bad) reportBadMotion();
-  return old;
-}
-
-void DemSolver::forces(double dt) {
   std::vector<PairEvent> events;
   DeepestOverlap deepest;
-  pairForces_.step(grains_, list_, dt, parallel_, events, deepest);
-  wallContacts_.step(grains_, walls_, dt, parallel_, deepest);
-  if (!events.empty()) applyEvents(events);
-  const Vec3 g = scene_.gravity;
-  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
-                     [&](std::int64_t first, std::int64_t last) {
-                       for (std::int64_t i = first; i < last; ++i) {
-                         const double m = 1.0 / grains_.motion[i].w;
-                         grains_.force[i] = {m * g.x(), m * g.y(), m * g.z(), 0.0};
-                         if (grains_.turning) grains_.torque[i] = {};
-                       }
-                       gatherPairForces(grains_, list_, laws_, first, last);
-                       wallContacts_.gather(grains_, first, last);
-                     });
+  wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
+  wallContacts_.tally(grains_, walls_, step_ == 0 ? 0.0 : dt_); // the work since the step before
+  const auto report = loop_.step(dt_, scene_.gravity, 0.25 * smallestRadius_ / dt_, events, deepest);
   checkOverlap(deepest);
-}
-
-void DemSolver::kick() {
-  const double half = 0.5 * dt_;
-  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
-                     [&](std::int64_t first, std::int64_t last) {
-                       for (std::int64_t i = first; i < last; ++i) {
-                         Quad& v = grains_.motion[i];
-                         const Quad& f = grains_.force[i];
-                         halfKick(v, f, half);
-                         if (!grains_.turning) continue;
-                         Quad& w = grains_.spin[i];
-                         const Quad& t = grains_.torque[i];
-                         halfKick(w, t, half);
-                       }
-                     });
+  if (report.bad) reportBadMotion();
+  if (!events.empty()) applyEvents(events);
+  if (drag_ > 0) damp();
+  ++step_;
+  placeWalls(walls_, time(), dt_);
+  atFullStep_.valid = false;
+  const bool late = report.late || wallsTravelledTooFar(walls_, wallRadius_);
+  if (late) checkEscapes();
+  const bool fresh = step_ % stepsBetweenOutletChecks == 0 && discharge();
+  if (late && !fresh) rebuild();
 }
 
 void DemSolver::applyEvents(std::vector<PairEvent>& events) {
@@ -229,14 +286,21 @@ void DemSolver::applyEvents(std::vector<PairEvent>& events) {
       grains.a.push_back(&grains_.quantities[q][i]);
       grains.b.push_back(&grains_.quantities[q][j]);
     }
-    entry.law->onEvent(e.event, list_.history(e.pair) + entry.firstHistory, grains);
+    double history[ContactBlock::maxHistory];
+    const int size = entry.law->historySize();
+    for (int k = 0; k < size; ++k)
+      history[k] = list_.historyOf(e.pair, entry.firstHistory + k);
+    entry.law->onEvent(e.event, history, grains);
+    for (int k = 0; k < size; ++k)
+      list_.setHistory(e.pair, entry.firstHistory + k, history[k]);
   }
   for (const PairEvent& e : events)
-    if (e.torn) std::fill_n(list_.history(e.pair), list_.historySize(), 0.0);
+    for (int k = 0; e.torn && k < list_.historySize(); ++k)
+      list_.setHistory(e.pair, k, 0.0);
 }
 
-void DemSolver::discharge() {
-  if (scene_.outlets.empty()) return;
+bool DemSolver::discharge() {
+  if (scene_.outlets.empty()) return false;
   std::vector<std::uint8_t> drop;
   for (const OutletSpec& outlet : scene_.outlets) {
     const Vec3 n = outlet.normal.normalized();
@@ -246,15 +310,15 @@ void DemSolver::discharge() {
       drop[i] = 1;
     }
   }
-  if (drop.empty()) return;
+  if (drop.empty()) return false;
   if (laws_.hasEvents()) { // conserved quantities of live pairs go back to their owners first
     std::vector<PairEvent> events;
-    for (std::size_t p = 0; p < list_.size(); ++p) {
+    for (std::int64_t p = 0; p < list_.entries(); ++p) {
       const auto [i, j] = list_.pairs()[p];
-      if (!list_.live()[p] || !(drop[i] || drop[j])) continue;
+      if (list_.isPadding(p) || !list_.live()[p] || !(drop[i] || drop[j])) continue;
       for (std::size_t l = 0; l < laws_.entries().size(); ++l)
         if (laws_.entries()[l].role == LawRole::gap)
-          events.push_back({grains_.id[i], grains_.id[j], list_.imageKey(p), static_cast<std::int32_t>(p),
+          events.push_back({grains_.id[i], grains_.id[j], list_.imageKey(p, grains_), p,
                             static_cast<std::int16_t>(l), deathEvent, true});
     }
     applyEvents(events);
@@ -263,9 +327,20 @@ void DemSolver::discharge() {
     if (!drop[i]) continue;
     ++flow_.grainsDischarged;
     flow_.massDischarged += grains_.mass(i);
+    const Vec3 x = grains_.place[i].vec();
+    const auto through = std::find_if(scene_.outlets.begin(), scene_.outlets.end(), [&](const OutletSpec& o) {
+      return (x - o.point).dot(o.normal.normalized()) > 0.0; // the first that it is beyond
+    });
+    if (!through->recycle && !through->record) continue;
+    GrainSeed seed = seedOf(i);
+    for (const auto& values : grains_.quantities)
+      seed.quantities.push_back(values[i]);
+    left_.push_back({std::move(seed), static_cast<int>(through - scene_.outlets.begin()), time(),
+                     time() - lives_.enteredAt(grains_.id[i])});
   }
   flow_.lastDischarge = time();
   rebuild(drop);
+  return true;
 }
 
 std::vector<double> DemSolver::quantity(const std::string& name) const {

@@ -1,5 +1,7 @@
 #pragma once
-// Soft-sphere discrete element method: contact laws over a neighbour list, velocity Verlet.
+// Soft-sphere discrete element method: contact laws over a neighbour list, leapfrog (ParticleLoop).
+// Between steps velocities are half a step behind; frames, energies and checkpoints of other programs see
+// those of the full step.
 // Bit-equal for any number of threads and across save and load.
 
 #include "sim/base/parallel.h"
@@ -7,10 +9,13 @@
 #include "sim/contact/pair_forces.h"
 #include "sim/contact/pair_list.h"
 #include "sim/contact/wall_contacts.h"
+#include "sim/grains/grain_lives.h"
+#include "sim/solvers/dem/particle_loop.h"
 #include "sim/solvers/solver.h"
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sandglass {
@@ -23,6 +28,8 @@ public:
 
   void add(const std::vector<GrainSeed>& grains) override;
   void removeWall(const std::string& name) override;
+  void setDrag(double rate) override { drag_ = rate; }
+  void beginStage(const std::string& name) override;
   void advance(std::int64_t steps) override;
 
   double time() const override { return static_cast<double>(step_) * dt_; }
@@ -31,12 +38,15 @@ public:
   std::size_t grains() const override { return grains_.size(); }
   std::int64_t nextId() const override { return nextId_; }
   bool isFree(const Vec3& position, double radius) const override;
+  double greatestSpeed() const override;
+  std::vector<LeftGrain> takeLeft() override { return std::exchange(left_, {}); }
 
   FramePtr frame() const override;
   Energies energies() const override;
   const Flow& flow() const override { return flow_; }
   std::vector<GrainSeed> present() const override;
   std::vector<FrameWall> walls() const override;
+  double wallWork() const override;
 
   State save() override;
   void load(const State& state) override;
@@ -47,37 +57,54 @@ public:
 
   // For benches, tests and `explain`.
   void overrideStep(double step) { dt_ = step; } ///< unchecked [s]; to study what the limit guards against
-  std::size_t pairsListed() const { return list_.size(); }
+  std::size_t pairsListed() const { return static_cast<std::size_t>(list_.size()); }
   std::int64_t rebuilds() const { return rebuilds_; }
   double bytesPerGrain() const;
 
 private:
+  /// Velocities at the full step, and the forces there.
+  struct FullStep {
+    bool valid = false;
+    std::vector<Quad> force, torque; ///< of contacts
+    std::vector<Vec3> velocity, spin;
+    std::vector<WallTally> tallies; ///< of the walls, with what the forces of this instant add
+  };
+
+  void checkPromisedSizes(); ///< laws may count on one grain mass a material until a grain has another
   void rebuild(const std::vector<std::uint8_t>& drop = {});
-  void prepare(); ///< fresh list and forces after grains or walls have changed
+  void prepare();    ///< fresh list, velocities half a step back, after grains or walls have changed
+  void toFullStep(); ///< before grains or walls change: velocities of the full step; `stale_` from here on
+  const FullStep& fullStep() const;
+  void evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) const;
   void stepOnce();
-  bool drift(); ///< first half kick and move; true when the list has become too old
-  void forces(double dt);
-  void kick(); ///< second half kick
   void applyEvents(std::vector<PairEvent>& events);
-  void discharge(); ///< takes out what has passed an outlet
+  void damp();      ///< a step of drag
+  bool discharge(); ///< takes out what has passed an outlet; whether anything has
   void checkOverlap(const DeepestOverlap& deepest) const;
   [[noreturn]] void reportBadMotion() const;
   void checkEscapes() const;
   std::vector<std::int32_t> idOrder() const;
+  GrainSeed seedOf(std::int32_t i) const;
   Vec3 wrapped(Vec3 x) const;
 
   Scene scene_;
   LawStack laws_;
-  Parallel parallel_;
+  mutable Parallel parallel_;
   GrainStore grains_;
   PairList list_;
   PairForces pairForces_;
   WallContacts wallContacts_;
-  std::vector<SolverWall> walls_;
+  mutable ParticleLoop loop_;
+  mutable FullStep atFullStep_;
+  mutable std::vector<SolverWall> walls_;
+  double wallRadius_ = 0; ///< [m] no grain is further from a moving wall's reference
   double dt_ = 0, skin_ = 0, meanDiameter_ = 0, smallestRadius_ = 0;
   std::int64_t step_ = 0, nextId_ = 0, rebuilds_ = 0;
-  bool stale_ = true;
+  bool stale_ = true; ///< list and forces are not those of the grains and walls now; velocities are at the full step
+  double drag_ = 0; ///< [1/s]
   Flow flow_;
+  GrainLives lives_;
+  std::vector<LeftGrain> left_;
 };
 
 } // namespace sandglass

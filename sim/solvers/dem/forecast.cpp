@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -27,6 +28,7 @@ Trial tryOut(const Scene& scene) {
   const double d = sizeRange(scene, species).meanDiameter;
   const double pitch = 0.99 * d;
   block.walls.clear();
+  block.probes.clear();
   block.outlets.clear();
   block.gravity = Vec3::Zero();
   block.output = {};
@@ -79,7 +81,22 @@ Forecast forecast(const Scene& scene) {
   tell(laws.range() > 0.0, "forces across a gap", fmt::format("lists reach {:.3g} m further", laws.range()));
   tell(periodic, "periodic directions", "12 bytes a grain, 9 bytes a pair");
   tell(!scene.walls.empty(), "walls", "paid by the grains that are near one");
+  tell(fastestWall(scene) > 0.0, "moving walls", "grains near them are listed a little further out");
   tell(!scene.outlets.empty(), "outlets", "one look at each grain every 50 steps");
+  const auto anyOutlet = [&](auto&& does) {
+    return std::any_of(scene.outlets.begin(), scene.outlets.end(), does);
+  };
+  const auto shows = [&](const char* name) {
+    const auto& list = scene.output.quantities;
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  tell(anyOutlet([](const OutletSpec& o) { return o.recycle.has_value(); }) || shows(quantity::life),
+       "recycling of grains, lives", "4 bytes a grain, a list made anew whenever grains come back");
+  tell(anyOutlet([](const OutletSpec& o) { return o.record; }) || shows(quantity::residenceTime),
+       "residence times", "8 bytes a grain");
+  tell(std::any_of(scene.stages.begin(), scene.stages.end(),
+                   [](const StageSpec& s) { return s.drag.has_value(); }),
+       "drag while settling", "one more look at each grain's velocity a step");
   tell(scene.gravity.norm() > 0.0, "gravity", "no memory");
   return f;
 }

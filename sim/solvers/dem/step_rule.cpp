@@ -1,6 +1,7 @@
 #include "sim/solvers/dem/step_rule.h"
 
 #include "sim/base/error.h"
+#include "sim/contact/solver_wall.h"
 #include "sim/grains/seeding.h"
 
 #include <fmt/format.h>
@@ -44,7 +45,8 @@ double impactSpeed(const Scene& scene) {
     const Parameters& p = fill.how.parameters;
     if (p.has("velocity")) fastest = std::max(fastest, p.vector("velocity").norm());
     if (p.has("velocities")) // a list of grains
-      for (const Vec3& v : p.vectors("velocities")) fastest = std::max(fastest, v.norm());
+      for (const Vec3& v : p.vectors("velocities"))
+        fastest = std::max(fastest, v.norm());
   }
   const Vec3 g = scene.gravity;
   double height = 0.0;
@@ -53,7 +55,7 @@ double impactSpeed(const Scene& scene) {
       if (!scene.domain.periodic[k])
         height += std::abs(g[k]) / g.norm() * (scene.domain.upper[k] - scene.domain.lower[k]);
   if (!std::isfinite(height)) height = 1.0;
-  return std::max({std::sqrt(2.0 * g.norm() * height), 2.0 * fastest, 1e-3});
+  return std::max({std::sqrt(2.0 * g.norm() * height), 2.0 * fastest, fastestWall(scene), 1e-3});
 }
 
 StepChoice chooseStep(const Scene& scene, const LawStack& laws) {

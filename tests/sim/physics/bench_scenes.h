@@ -27,6 +27,8 @@ material = "glass"
 size = { distribution = "single", diameter = "2 mm" }
 )";
   std::string firstDiameter; ///< for the placeholder grain, where the species has a size spread
+  double density = 2500;     ///< [kg/m^3]
+  double timeStep = 0;       ///< [s]; 0: from stepsPerContact
   double stepsPerContact = 50;
   double maximumOverlap = 0.5;
 
@@ -40,7 +42,7 @@ upper = {}
 periodic = {}
 [[material]]
 name = "glass"
-density = "2500 kg/m^3"
+density = "{} kg/m^3"
 {}
 [[material]]
 name = "wall"
@@ -66,10 +68,12 @@ until = {{ duration = "1 s" }}
 [accuracy]
 steps_per_contact = {}
 maximum_overlap = {}
+{}
 )",
-                       gravity, lower, upper, periodic, elasticity, elasticity, normal, tangential, rolling,
-                       wallNormal.empty() ? normal : wallNormal, tangential, rolling, species, walls,
-                       firstDiameter, stepsPerContact, maximumOverlap);
+                       gravity, lower, upper, periodic, density, elasticity, elasticity, normal, tangential,
+                       rolling, wallNormal.empty() ? normal : wallNormal, tangential, rolling, species, walls,
+                       firstDiameter, stepsPerContact, maximumOverlap,
+                       timeStep > 0 ? fmt::format("time_step = \"{:.17g} s\"", timeStep) : "");
   }
   Scene scene() const { return parseScene(text(), "test"); }
 };

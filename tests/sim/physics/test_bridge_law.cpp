@@ -80,9 +80,9 @@ TEST_CASE("a scene without such a law keeps no history, no spin and no torque") 
   const LawStack a(smooth.scene()), b(rough.scene());
   CHECK(a.historySize() == 0);
   CHECK_FALSE(a.turning());
-  CHECK(a.outputSize() == 3);
+  CHECK(a.outputQuads() == 1);
   CHECK(b.historySize() == 3);
-  CHECK(b.outputSize() == 6);
+  CHECK(b.outputQuads() == 2);
   CHECK_FALSE(b.readsSpin());
   DemSolver lean(smooth.scene()), full(rough.scene());
   CHECK(lean.bytesPerGrain() < full.bytesPerGrain());

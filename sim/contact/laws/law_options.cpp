@@ -1,0 +1,52 @@
+#include "sim/contact/laws/law_options.h"
+
+#include "sim/base/error.h"
+
+#include <fmt/format.h>
+
+namespace sandglass {
+
+namespace {
+
+constexpr double unlimited = 1e30; // finite in single precision too
+
+} // namespace
+
+bool requireOne(const Parameters& p, const std::string& who, const std::string& first,
+                const std::string& second) {
+  if (p.has(first) == p.has(second))
+    throw InputError(fmt::format("{} needs either {} or {}; {} given", who, first, second,
+                                 p.has(first) ? "both are" : "neither is"));
+  return p.has(first);
+}
+
+ParameterSpec clampAttraction() {
+  return {"clamp_attraction", ParameterType::boolean, "1",
+          "cut the dashpot's attraction while parting; see 'restitution' of explain", ParameterValue(false)};
+}
+
+double attractionFloor(const Parameters& p) {
+  return p.boolean("clamp_attraction") ? 0.0 : -unlimited;
+}
+
+ParameterSpec contactArm() {
+  ParameterSpec arm{"arm", ParameterType::text, "1",
+                    "lever arm of slip and torque: up to the contact point (keeps angular momentum), or the "
+                    "full radius as in other programs",
+                    ParameterValue(std::string("contact"))};
+  arm.choices = {"contact", "radius"};
+  return arm;
+}
+
+bool readsFullRadiusArm(const Parameters& p) {
+  return p.text("arm") == "radius";
+}
+
+void SharedChoice::take(bool value) {
+  if (set_ && value != value_)
+    throw InputError(fmt::format("all contacts of a scene need the same choice of '{}'", option_));
+  set_ = true;
+  value_ = value;
+}
+
+} // namespace sandglass

@@ -1,0 +1,73 @@
+#pragma once
+// The steps of the particle loop that handle memory: from grain records to a block of contacts, from a block
+// to outputs, from outputs to the sums of a group of grains, and on to their new records. One function each
+// and for each width; all widths give the same bits. Plain data alone crosses this interface, since the files
+// behind it are compiled for different processors.
+
+#include "sim/contact/contact_block.h"
+#include "sim/contact/kernel_width.h"
+
+#include <cstdint>
+
+namespace sandglass {
+
+/// What the loop sees of grains and pairs. Records are `quads` times four doubles: x y z radius, velocity and
+/// 1/mass, radius times spin and 1/radius (GrainStore). Pairs, histories, outputs, slots: PairList.
+struct ParticleView {
+  double* records = nullptr;
+  int quads = 2;
+  const std::int32_t* pairs = nullptr; ///< a and b in turns
+  const std::uint8_t* shiftOf = nullptr;
+  const double* shifts = nullptr; ///< four doubles a code; null without periodic directions
+  std::uint8_t noShift = 0;       ///< the code of the box itself
+  const std::uint8_t* material = nullptr;
+  int materials = 1;
+  bool oneMaterial = true; ///< all grains are of material 0
+  double* history = nullptr;
+  int historySize = 0;
+  double* output = nullptr;
+  int outputQuads = 1; ///< force; with friction also torque over radius; with rolling also a couple
+  const std::int32_t* slots = nullptr;
+  bool readsSpin = false, radiusArm = false;
+  unsigned reads = 0; ///< Law::Columns
+};
+
+/// Working columns of a block that no law sees.
+template <class Real> struct PairColumnsOf {
+  alignas(64) Real sum[64], arm[64]; ///< sum of radii; contact arm over radius, the same for both grains
+  alignas(64) Real inverseMass[64], rollX[64], rollY[64], rollZ[64];
+};
+using PairColumns = PairColumnsOf<double>;
+
+struct GroupSums {
+  static constexpr int capacity = 32;
+  alignas(64) double at[capacity][12]; ///< force, torque over radius, couple: four doubles each
+};
+
+/// Greatest components met, for lists and for the watch on speeds.
+struct Speeds {
+  double x = 0, y = 0, z = 0;
+  bool bad = false; ///< a component was not below the limit (catches NaN)
+};
+
+struct Kernel {
+  /// Fills geometry, motion and history of `count` pairs from `first`; both are multiples of 8.
+  void (*fill)(const ParticleView&, std::int64_t first, int count, ContactBlock&, PairColumns&);
+  /// Writes histories (unless `keepHistory`) and outputs.
+  void (*write)(const ParticleView&, std::int64_t first, const ContactBlock&, const PairColumns&,
+                bool keepHistory);
+  /// Sums what the slots of `count` grains from `first` point at.
+  void (*sum)(const ParticleView&, std::int64_t first, int count, GroupSums&);
+  /// Kick and drift of a group: v += dt (f/m + g), x += dt v; `roll` by 5/2 dt/m (t + couple/radius).
+  void (*move)(const ParticleView&, std::int64_t first, int count, const GroupSums&, double dt,
+               const double* gravity, double speedLimit, Speeds&);
+};
+
+const Kernel& plainKernel();
+const Kernel& avx2Kernel();
+const Kernel& avx512Kernel();
+inline const Kernel& kernelOf(KernelWidth width) {
+  return width == KernelWidth::avx512 ? avx512Kernel() : width == KernelWidth::avx2 ? avx2Kernel() : plainKernel();
+}
+
+} // namespace sandglass

@@ -1,0 +1,52 @@
+#pragma once
+// Kick and drift with one record's quad per register; for both vector widths.
+
+#include "sim/contact/pair_kernel.h"
+
+#include <immintrin.h>
+
+namespace sandglass {
+
+namespace {
+
+void move(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+          const double* gravity, double speedLimit, Speeds& speeds) {
+  const __m256d step = _mm256_set_pd(0, dt, dt, dt);
+  // Zero in the last lane keeps radius, 1/mass and 1/radius as they are.
+  const __m256d pull = _mm256_set_pd(0, dt * gravity[2], dt * gravity[1], dt * gravity[0]);
+  const __m256d xyz = _mm256_castsi256_pd(_mm256_set_epi64x(0, -1, -1, -1));
+  const __m256d absolute = _mm256_castsi256_pd(_mm256_set_epi64x(0, ~(1ull << 63), ~(1ull << 63), ~(1ull << 63)));
+  const __m256d limit = _mm256_set1_pd(speedLimit);
+  __m256d most = _mm256_set_pd(0, speeds.z, speeds.y, speeds.x), fine = _mm256_cmp_pd(limit, limit, _CMP_EQ_OQ);
+  const bool turning = v.quads > 2, couples = v.outputQuads > 2;
+  for (int i = 0; i < count; ++i) {
+    double* r = v.records + (first + i) * 4 * v.quads;
+    const double* f = s.at[i];
+    __m256d motion = _mm256_load_pd(r + 4);
+    const __m256d kick = _mm256_mul_pd(step, _mm256_permute4x64_pd(motion, 0xff));
+    motion = _mm256_add_pd(motion, _mm256_add_pd(_mm256_mul_pd(kick, _mm256_load_pd(f)), pull));
+    _mm256_store_pd(r + 4, motion);
+    _mm256_store_pd(r, _mm256_add_pd(_mm256_load_pd(r), _mm256_mul_pd(step, motion)));
+    const __m256d size = _mm256_and_pd(motion, absolute);
+    most = _mm256_max_pd(size, most);
+    fine = _mm256_and_pd(fine, _mm256_cmp_pd(size, limit, _CMP_LT_OQ));
+    if (!turning) continue;
+    const __m256d roll = _mm256_load_pd(r + 8);
+    __m256d torque = _mm256_load_pd(f + 4);
+    if (couples)
+      torque = _mm256_add_pd(torque,
+                             _mm256_mul_pd(_mm256_load_pd(f + 8), _mm256_permute4x64_pd(roll, 0xff)));
+    const __m256d turn = _mm256_and_pd(_mm256_mul_pd(_mm256_set1_pd(2.5), kick), xyz);
+    _mm256_store_pd(r + 8, _mm256_add_pd(roll, _mm256_mul_pd(turn, _mm256_and_pd(torque, xyz))));
+  }
+  alignas(32) double m[4];
+  _mm256_store_pd(m, most);
+  speeds.x = m[0];
+  speeds.y = m[1];
+  speeds.z = m[2];
+  speeds.bad = speeds.bad || _mm256_movemask_pd(fine) != 15;
+}
+
+} // namespace
+
+} // namespace sandglass

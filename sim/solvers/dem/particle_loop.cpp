@@ -1,0 +1,136 @@
+#include "sim/solvers/dem/particle_loop.h"
+
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+namespace sandglass {
+
+namespace {
+
+constexpr int group = PairList::group;
+
+/// Blocks are large; one set a thread, kept.
+PairForces::Scratch& scratchOfThread() {
+  thread_local PairForces::Scratch scratch;
+  scratch.events.clear();
+  scratch.deepest = {};
+  return scratch;
+}
+
+} // namespace
+
+void ParticleLoop::bind() {
+  pairs_.bind(grains_, list_);
+  const std::size_t groups = (grains_.size() + group - 1) / group;
+  moved_.assign(groups, 0.0);
+  allowed_.resize(groups);
+  for (std::size_t g = 0; g < groups; ++g)
+    allowed_[g] = grains_.listed[g * group].w;
+}
+
+void ParticleLoop::sumGroup(std::int64_t g, std::int64_t last, GroupSums& sums) const {
+  const std::int64_t first = g * group;
+  const ParticleView& view = pairs_.view();
+  kernelOf(pairs_.width()).sum(view, first, static_cast<int>(last - first), sums);
+  const PairList::Range extras = list_.groupExtras(g);
+  for (std::int64_t e = extras.begin; e < extras.end; ++e) {
+    const PairList::Extra& extra = list_.extras()[e];
+    double* to = sums.at[extra.grain - first];
+    const double* out = view.output + static_cast<std::int64_t>(extra.entry >> 1) * 4 * view.outputQuads;
+    const double sign = extra.entry & 1 ? -1.0 : 1.0;
+    for (int q = 0; q < view.outputQuads; ++q)
+      for (int k = 0; k < 3; ++k)
+        to[4 * q + k] += q == 1 ? out[4 * q + k] : sign * out[4 * q + k];
+  }
+  walls_.addTo(sums, grains_, first, last);
+}
+
+template <class Done>
+void ParticleLoop::sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done) {
+  const PairList::Range grains = list_.chunkGrains(chunk), pairs = list_.chunkPairs(chunk);
+  std::int64_t next = pairs.begin;
+  for (std::int64_t first = grains.begin; first < grains.end; first += group) {
+    const std::int64_t g = first / group;
+    while (next < list_.groupEnd(g)) {
+      const std::int64_t end = std::min(next + ContactBlock::capacity, pairs.end);
+      pairs_.evaluate({next, end}, dt, keepHistory, scratch);
+      next = end;
+    }
+    done(g, std::min(first + group, grains.end));
+  }
+}
+
+void ParticleLoop::crossing(double dt, bool keepHistory) {
+  const PairList::Range pairs = list_.crossing();
+  constexpr std::int64_t piece = ContactBlock::capacity;
+  std::mutex merge;
+  parallel_.forRange((pairs.end - pairs.begin + piece - 1) / piece, 4, [&](std::int64_t first, std::int64_t last) {
+    PairForces::Scratch& scratch = scratchOfThread();
+    pairs_.evaluate({pairs.begin + first * piece, std::min(pairs.begin + last * piece, pairs.end)}, dt,
+                    keepHistory, scratch);
+    const std::lock_guard lock(merge);
+    events_.insert(events_.end(), scratch.events.begin(), scratch.events.end());
+    deepest_.take(scratch.deepest.share, scratch.deepest.idA, scratch.deepest.idB, scratch.deepest.wall);
+  });
+}
+
+ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double speedLimit,
+                                        std::vector<PairEvent>& events, DeepestOverlap& deepest) {
+  events_.clear();
+  deepest_ = {};
+  crossing(dt, false);
+  std::mutex merge;
+  std::atomic<bool> late{false}, bad{false};
+  const Kernel& kernel = kernelOf(pairs_.width());
+  parallel_.forRange(list_.chunks(), 1, [&](std::int64_t firstChunk, std::int64_t lastChunk) {
+    PairForces::Scratch& scratch = scratchOfThread();
+    GroupSums sums;
+    bool tired = false, wrong = false;
+    for (std::int64_t c = firstChunk; c < lastChunk; ++c)
+      sweep(static_cast<int>(c), dt, false, scratch, [&](std::int64_t g, std::int64_t last) {
+        sumGroup(g, last, sums);
+        Speeds speeds;
+        kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt, gravity.data(),
+                    speedLimit, speeds);
+        moved_[g] += dt * std::sqrt(speeds.x * speeds.x + speeds.y * speeds.y + speeds.z * speeds.z);
+        tired = tired || moved_[g] > allowed_[g];
+        wrong = wrong || speeds.bad;
+      });
+    if (tired) late = true;
+    if (wrong) bad = true;
+    const std::lock_guard lock(merge);
+    events_.insert(events_.end(), scratch.events.begin(), scratch.events.end());
+    deepest_.take(scratch.deepest.share, scratch.deepest.idA, scratch.deepest.idB, scratch.deepest.wall);
+  });
+  events.insert(events.end(), events_.begin(), events_.end());
+  deepest.take(deepest_.share, deepest_.idA, deepest_.idB, deepest_.wall);
+  return {late, bad};
+}
+
+void ParticleLoop::forces(double dt, std::vector<Quad>& force, std::vector<Quad>& torque) {
+  force.assign(grains_.size(), {});
+  torque.assign(grains_.turning ? grains_.size() : 0, {});
+  std::vector<std::uint8_t> live;
+  if (list_.live()) live = list_.liveArray();
+  crossing(dt, true);
+  parallel_.forRange(list_.chunks(), 1, [&](std::int64_t firstChunk, std::int64_t lastChunk) {
+    PairForces::Scratch& scratch = scratchOfThread();
+    GroupSums sums;
+    for (std::int64_t c = firstChunk; c < lastChunk; ++c)
+      sweep(static_cast<int>(c), dt, true, scratch, [&](std::int64_t g, std::int64_t last) {
+        sumGroup(g, last, sums);
+        for (std::int64_t i = g * group; i < last; ++i) {
+          const double* s = sums.at[i - g * group];
+          force[i] = {s[0], s[1], s[2], 0.0};
+          if (!grains_.turning) continue;
+          const double r = grains_.place[i].w;
+          torque[i] = {r * s[4], r * s[5], r * s[6], 0.0};
+          if (list_.outputQuads() > 2) torque[i] = {r * s[4] + s[8], r * s[5] + s[9], r * s[6] + s[10], 0.0};
+        }
+      });
+  });
+  if (list_.live()) list_.liveArray() = live;
+}
+
+} // namespace sandglass

@@ -1,0 +1,161 @@
+#include "tests/bench/beds.h"
+
+#include "sim/base/random.h"
+#include "sim/solvers/dem/dem_solver.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace sandglass::bench {
+
+namespace {
+constexpr double stiffness = 2e5, dampingRate = 50, frictionCoefficient = 0.5;
+constexpr double degree = std::numbers::pi / 180;
+} // namespace
+
+peers::HookeHistory standardCoefficients(bool friction) {
+  return {stiffness, 2.0 / 7.0 * stiffness, dampingRate, 0, friction ? frictionCoefficient : 0, false};
+}
+
+Scene Beads::scene(const std::vector<std::string>& knobs) const {
+  // A dashpot of fixed rate has, for one effective mass, the restitution exp(-rate t_c / 2).
+  const auto contact = [&](const char* with, double mass) {
+    const double zeta = 0.5 * dampingRate * std::sqrt(mass / stiffness);
+    const double e =
+        restitution > 0 ? restitution : std::exp(-std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta));
+    return fmt::format(
+        R"([[contact]]
+between = ["bead", "{}"]
+normal = {{ law = "linear", stiffness = "{:.17g} N/m", restitution = {:.17g} }}
+tangential = {}
+)",
+        with, stiffness, e,
+        friction ? fmt::format(R"({{ law = "spring", friction = {}, rotation = "project", arm = "radius" }})",
+                               frictionCoefficient)
+                 : R"({ law = "none" })");
+  };
+  const double mass = std::numbers::pi / 6;
+  return parseScene(fmt::format(R"(
+title = "bench"
+gravity = ["{:.17g} m/s^2", "0", "{:.17g} m/s^2"]
+[domain]
+lower = ["0", "0", "{} m"]
+upper = ["{:.17g} m", "{:.17g} m", "{:.17g} m"]
+periodic = ["x", "y"{}]
+[[material]]
+name = "bead"
+density = "1 kg/m^3"
+[[material]]
+name = "floor"
+{}{}
+[[species]]
+name = "bead"
+material = "bead"
+size = {{ distribution = "single", diameter = "1 m" }}
+{}
+[[fill]]
+kind = "list"
+grains = [{{ position = ["0.6 m", "0.6 m", "0.6 m"] }}]
+[[stage]]
+name = "run"
+until = {{ duration = "1 s" }}
+[accuracy]
+time_step = "{:.17g} s"
+)",
+                                gravity * std::sin(angle * degree), -gravity * std::cos(angle * degree),
+                                floor ? -1 : 0, width, breadth, height, floor ? "" : ", \"z\"",
+                                contact("bead", 0.5 * mass), contact("floor", mass),
+                                floor ? R"([[wall]]
+name = "floor"
+kind = "plane"
+material = "floor"
+point = ["0", "0", "0"]
+normal = [0, 0, 1]
+)"
+                                      : "",
+                                timeStep),
+                    "bench", knobs);
+}
+
+std::vector<std::string> Beads::lammpsForces() const {
+  const peers::HookeHistory c = standardCoefficients(friction);
+  std::vector<std::string> lines{
+      "pair_style " + c.words(),
+      "pair_coeff * *",
+      "neighbor 0.1 bin", // as the benchmark has it
+      "neigh_modify every 1 delay 0",
+      fmt::format("timestep {:.17g}", timeStep),
+      fmt::format("fix weight all gravity {:.17g} vector {:.17g} 0 {:.17g}", gravity,
+                  std::sin(angle * degree), -std::cos(angle * degree)),
+      "fix motion all nve/sphere",
+  };
+  if (floor) lines.push_back(fmt::format("fix floor all wall/gran {} zplane 0 NULL", c.wallWords()));
+  return lines;
+}
+
+std::vector<GrainSeed> settledTile(int across, int layers, bool quick) {
+  const double side = across * tileSpacing;
+  std::vector<GrainSeed> seeds;
+  for (int k = 0; k < across * across * layers; ++k) {
+    RandomStream random(1, RandomPurpose::test, k);
+    GrainSeed s;
+    s.id = k;
+    s.radius = 0.5;
+    const Vec3 cell(k % across, k / across % across, k / (across * across));
+    s.position = tileSpacing * (cell + Vec3::Constant(0.5)) + 0.02 * random.direction();
+    s.velocity = 0.2 * random.direction();
+    seeds.push_back(s);
+  }
+  // Soft in time and lossy: only the bed that is left matters.
+  Beads beads{side, side, 2.0 * layers + 10, 0, 1, true, true, 0.4, 3e-4};
+  DemSolver solver(beads.scene(), {0});
+  solver.add(seeds);
+  solver.advance(quick ? 3000 : 30000);
+  return solver.present();
+}
+
+std::vector<GrainSeed> tiled(const std::vector<GrainSeed>& tile, double side, int nx, int ny) {
+  std::vector<GrainSeed> all;
+  all.reserve(tile.size() * nx * ny);
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j)
+      for (GrainSeed s : tile) {
+        s.id = static_cast<std::int64_t>(all.size());
+        s.position += side * Vec3(i, j, 0);
+        all.push_back(s);
+      }
+  return all;
+}
+
+std::vector<GrainSeed> flowing(const Beads& beads, const std::vector<GrainSeed>& start, double time) {
+  constexpr double shearRate = 0.05, agitation = 0.3;
+  std::vector<GrainSeed> moving = start;
+  for (GrainSeed& s : moving) {
+    RandomStream random(3, RandomPurpose::test, s.id);
+    s.velocity = Vec3(shearRate * s.position.z(), 0, 0) + agitation * random.direction();
+  }
+  DemSolver solver(beads.scene(), {0});
+  solver.add(moving);
+  solver.advance(std::llround(time / beads.timeStep));
+  return solver.present();
+}
+
+std::vector<GrainSeed> gas(int across, double solidFraction, Beads& beads) {
+  const double spacing = std::cbrt(std::numbers::pi / 6 / solidFraction), side = across * spacing;
+  beads = {side, side, side, 0, 0, true, false, 0, 1e-4};
+  std::vector<GrainSeed> seeds;
+  for (int k = 0; k < across * across * across; ++k) {
+    RandomStream random(2, RandomPurpose::test, k);
+    GrainSeed s;
+    s.id = k;
+    s.radius = 0.5;
+    s.position = spacing * (Vec3(k % across, k / across % across, k / across / across) + Vec3::Constant(0.5));
+    s.velocity = 1.7 * random.direction();
+    seeds.push_back(s);
+  }
+  return seeds;
+}
+
+} // namespace sandglass::bench

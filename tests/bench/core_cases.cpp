@@ -1,0 +1,175 @@
+#include "tests/bench/core_cases.h"
+
+#include "sim/base/error.h"
+#include "sim/solvers/dem/dem_solver.h"
+#include "tests/bench/beds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+namespace sandglass::bench {
+
+namespace {
+
+/// Steps after which the kinetic energies are compared; runs are multiples of it where others take part.
+constexpr std::int64_t look = 300;
+
+struct Tile {
+  int across = 0, layers = 0;
+  std::vector<GrainSeed> grains;
+  double side() const { return across * tileSpacing; }
+};
+
+/// Each tile is settled once.
+const Tile& tile(int across, int layers, bool quick) {
+  static std::map<std::pair<int, int>, Tile> made;
+  Tile& t = made[{across, layers}];
+  if (t.grains.empty()) t = {across, layers, settledTile(across, layers, quick)};
+  return t;
+}
+
+/// A bed of tiles on a slope (angle 0: at rest for good).
+CoreCase bed(const std::string& name, const Tile& t, int nx, int ny, double angle, bool friction,
+             std::int64_t steps, bool peers) {
+  const Beads beads{nx * t.side(), ny * t.side(), 2.0 * t.layers + 10, angle, 1, friction, true};
+  CoreCase c{name, beads.scene(), tiled(t.grains, t.side(), nx, ny), {}, steps, {}, peers};
+  if (peers) c.lammps = beads.lammpsForces();
+  return c;
+}
+
+CoreCase chute(bool quick, bool flows) {
+  const Tile& t = tile(10, 40, quick);
+  CoreCase c = bed(flows ? "chute_flowing" : "chute_rest", t, 4, 2, 26, true, quick ? look : 4 * look, true);
+  if (flows) {
+    // One tile flows and is repeated: as good a bed to measure, at an eighth of the time.
+    const Beads one{t.side(), t.side(), 2.0 * t.layers + 10, 26};
+    c.grains = tiled(flowing(one, t.grains, quick ? 0.3 : 2), t.side(), 4, 2);
+  }
+  return c;
+}
+
+CoreCase dilute(bool quick) {
+  Beads beads;
+  const auto grains = gas(quick ? 16 : 32, 0.05, beads);
+  return {"dilute_gas", beads.scene(), grains, {}, quick ? look : 4 * look, beads.lammpsForces(), false};
+}
+
+/// Runs a scene's first stage and, where it has a gate, a while of the next.
+CoreCase prepared(const std::string& name, const Scene& scene, std::int64_t settle, std::int64_t flow,
+                  std::int64_t steps) {
+  DemSolver solver(scene, {0});
+  solver.add(placeGrains(scene, scene.stages.front().name, 0, {}));
+  solver.advance(settle);
+  if (scene.stages.size() > 1)
+    for (const std::string& wall : scene.stages[1].removeWalls)
+      solver.removeWall(wall);
+  solver.advance(flow);
+  return {name, scene, {}, solver.save(), steps, {}, false};
+}
+
+CoreCase conicalHopper(bool quick) {
+  const std::string file = std::string(SANDGLASS_SOURCE_DIR) + "/sample_runs/hopper_conical/scene.toml";
+  Scene scene =
+      readScene(file, quick ? std::vector<std::string>{"fill.1.number=2000"} : std::vector<std::string>{});
+  return prepared("hopper_conical", scene, quick ? 2000 : 12000, quick ? 1000 : 6000, quick ? 300 : 1000);
+}
+
+/// Half the mass in grains ten times as large as the others.
+CoreCase binary(bool quick) {
+  const Scene scene = parseScene(fmt::format(R"(
+title = "bench"
+[domain]
+lower = ["0", "0", "-5 mm"]
+upper = ["40 mm", "40 mm", "400 mm"]
+periodic = ["x", "y"]
+[[material]]
+name = "glass"
+density = "2500 kg/m^3"
+[[contact]]
+between = ["glass", "glass"]
+normal = {{ law = "linear", collision_time = "4e-4 s", restitution = 0.7 }}
+tangential = {{ law = "spring", friction = 0.5 }}
+[[species]]
+name = "small"
+material = "glass"
+size = {{ distribution = "single", diameter = "1 mm" }}
+[[species]]
+name = "large"
+material = "glass"
+size = {{ distribution = "single", diameter = "10 mm" }}
+[[wall]]
+name = "floor"
+kind = "plane"
+material = "glass"
+point = ["0", "0", "0"]
+normal = [0, 0, 1]
+[[fill]]
+kind = "random"
+region = "box"
+lower = ["0", "0", "0"]
+upper = ["40 mm", "40 mm", "300 mm"]
+mixture = [{{ species = "small", fraction = 0.5 }}, {{ species = "large", fraction = 0.5 }}]
+by = "mass"
+mass = "{} g"
+[[stage]]
+name = "settle"
+until = {{ duration = "1 s" }}
+)",
+                                             quick ? 10 : 100),
+                                 "bench");
+  return prepared("binary_1_10", scene, quick ? 1000 : 12000, 0, quick ? 300 : 1500);
+}
+
+using Maker = std::function<CoreCase(bool)>;
+
+const std::vector<std::pair<std::string, Maker>>& makers() {
+  static const std::vector<std::pair<std::string, Maker>> all{
+      {"chute_rest", [](bool q) { return chute(q, false); }},
+      {"chute_flowing", [](bool q) { return chute(q, true); }},
+      {"bed_1e5",
+       [](bool q) {
+         return bed("bed_1e5", tile(10, 25, q), q ? 2 : 8, q ? 1 : 5, 0, true, q ? look : 2 * look, true);
+       }},
+      {"bed_1e4",
+       [](bool q) {
+         return bed("bed_1e4", tile(10, 25, q), 2, q ? 1 : 2, 0, true, q ? look : 10 * look, false);
+       }},
+      {"bed_1e4_frictionless",
+       [](bool q) {
+         return bed("bed_1e4_frictionless", tile(10, 25, q), 2, q ? 1 : 2, 0, false, q ? look : 10 * look,
+                    false);
+       }},
+      {"bed_1e5_frictionless",
+       [](bool q) {
+         return bed("bed_1e5_frictionless", tile(10, 25, q), q ? 2 : 8, q ? 1 : 5, 0, false,
+                    q ? look : 2 * look, false);
+       }},
+      {"bed_1e6",
+       [](bool q) { return bed("bed_1e6", tile(10, 25, q), q ? 4 : 20, q ? 2 : 20, 0, true, 60, false); }},
+      {"hopper_conical", conicalHopper},
+      {"binary_1_10", binary},
+      {"dilute_gas", dilute},
+  };
+  return all;
+}
+
+} // namespace
+
+std::vector<std::string> coreCaseNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, make] : makers())
+    names.push_back(name);
+  return names;
+}
+
+CoreCase makeCoreCase(const std::string& name, bool quick) {
+  for (const auto& [known, make] : makers())
+    if (known == name) return make(quick);
+  throw InputError(
+      fmt::format("there is no case '{}'; there are: {}", name, fmt::join(coreCaseNames(), " ")));
+}
+
+} // namespace sandglass::bench
