@@ -55,7 +55,7 @@ void PairList::build(GrainStore& grains, double range, Parallel& parallel,
                      const std::vector<std::uint8_t>& drop, const Allow& allow) {
   if (periodic_) wrap(grains, parallel);
   grid_.sort(grains, domain_, range, parallel, drop);
-  grains.reorder(grid_.order(), parallel);
+  grains.reorder(grid_.order(), parallel, output_);
   fillColumns(grains, range, parallel, allow);
 
   std::swap(now_, past_);

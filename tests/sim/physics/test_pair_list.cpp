@@ -227,7 +227,7 @@ TEST_CASE("sizes 1:50 in one list of several levels") {
       store.place[i * 900].w = 0.25 - 0.04 * i;
     for (int i = 0; i < 40; ++i)
       store.place[i * 100 + 7].w = 0.03 + 0.001 * i;
-    compare(domain, std::move(store), 0.001);
+    compare(domain, store, 0.001);
   }
 }
 
