@@ -427,3 +427,82 @@ TEST_CASE("the list is the same for any number of threads and any width of instr
       CHECK((r == results.front()));
   }
 }
+
+namespace {
+
+/// Distance tests of the search over all grains, per grain and mean occupant of a cell.
+double testsPerOccupant(const Domain& domain, GrainStore& store, double range) {
+  Parallel parallel(2);
+  CellGrid grid;
+  grid.sort(store, domain, range, parallel, {});
+  std::vector<Quad> scratch;
+  store.reorder(grid.order(), parallel, scratch);
+  const double n = static_cast<double>(store.size());
+  GrainColumns columns;
+  columns.resize(store.size());
+  const ImageCodes codes(domain, 2.0 * grid.largestReach());
+  const PairSearch search(grid, codes, columns, KernelWidth::plain);
+  const auto& count = grid.levels().front().count;
+  REQUIRE(grid.levels().size() == 1);
+  // As many cells as cut-offs fit along each side.
+  const double cutoff = 2.0 * grid.largestReach();
+  for (int k = 0; k < 3; ++k)
+    CHECK(count[k] == static_cast<int>((domain.upper[k] - domain.lower[k]) / cutoff));
+  return static_cast<double>(search.distanceTests()) / (n * n / (1.0 * count[0] * count[1] * count[2]));
+}
+
+} // namespace
+
+TEST_CASE("the search measures 13 partners per grain and occupant of a cell") {
+  // Half of the 26 cells around a grain's own (Hockney and Eastwood), and half of its own.
+  const Domain cube{Vec3(0, 0, 0), Vec3(1, 1, 1), {true, true, true}};
+  for (const int n : {1000, 10000, 100000}) {
+    GrainStore store;
+    const double radius = 0.5 * 0.999 / std::floor(std::cbrt(n / 2.0)); // two grains a cell
+    fillAtRandom(store, n, cube, radius, radius, 0.0);
+    CHECK(testsPerOccupant(cube, store, 0.0) == Approx(13.0).epsilon(0.15));
+  }
+}
+
+TEST_CASE("grains in a cone are found as by brute force") {
+  // A grid over the cone's bounding box: most cells are empty, and occupied ones hold what they hold in a
+  // cube.
+  const Domain box{Vec3(0, 0, 0), Vec3(1, 1, 1), {false, false, false}};
+  for (const int n : {1000, 5000}) {
+    GrainStore store;
+    const double radius = 0.5 / std::floor(std::cbrt(n / 2.0));
+    fillAtRandom(store, n, box, radius, radius, 0.0);
+    for (std::size_t i = 0; i < store.size(); ++i) { // into a cone with its tip at the bottom
+      Quad& q = store.place[i];
+      q.x = 0.5 + (q.x - 0.5) * q.z;
+      q.y = 0.5 + (q.y - 0.5) * q.z;
+    }
+    compare(box, store, 0.0);
+  }
+}
+
+TEST_CASE("a sorted grid chains each grain to exactly one cell") {
+  const Domain domain{Vec3(0, 0, 0), Vec3(1, 1, 1), {true, false, true}};
+  GrainStore store;
+  fillAtRandom(store, 9000, domain, 0.004, 0.005, 0.001);
+  for (int i = 0; i < 5; ++i)
+    store.place[1000 * i].w = 0.2;
+  Parallel parallel(3);
+  CellGrid grid;
+  grid.sort(store, domain, 0.001, parallel, {});
+  std::vector<std::int32_t> order = grid.order();
+  CHECK(grid.levels().size() > 1);
+  REQUIRE(order.size() == store.size());
+  REQUIRE(grid.start().front() == 0);
+  REQUIRE(grid.start().back() == static_cast<std::int32_t>(order.size()));
+  bool ascending = true; // grains of one cell stand in the order they had
+  for (std::size_t c = 0; c + 1 < grid.start().size(); ++c) {
+    REQUIRE(grid.start()[c] <= grid.start()[c + 1]);
+    for (std::int32_t k = grid.start()[c] + 1; k < grid.start()[c + 1]; ++k)
+      ascending = ascending && order[k - 1] < order[k];
+  }
+  CHECK(ascending);
+  std::sort(order.begin(), order.end());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    REQUIRE(order[k] == static_cast<std::int32_t>(k));
+}
