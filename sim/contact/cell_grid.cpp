@@ -101,7 +101,7 @@ void CellGrid::lay(const Domain& domain, const Bounds& bounds) {
 }
 
 void CellGrid::sort(const GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
-                    const std::vector<std::uint8_t>& drop) {
+                    const std::vector<std::uint8_t>& drop, std::vector<Quad>& scratch) {
   const std::int64_t n = static_cast<std::int64_t>(grains.size());
   const auto stays = [&](std::int64_t i) { return drop.empty() || !drop[i]; };
 
@@ -164,17 +164,24 @@ void CellGrid::sort(const GrainStore& grains, const Domain& domain, double range
       std::max<std::int64_t>(1, std::min<std::int64_t>(4 * parallel.threads(), n / grainsPerPiece));
   const bool oneLevel = levels_.size() == 1;
   const std::vector<Map> maps(levels_.begin(), levels_.end());
-  cells_.resize(n);
+  struct Keyed {
+    std::int32_t cell, grain;
+  };
+  const std::size_t quads =
+      (static_cast<std::size_t>(n) * (sizeof(Keyed) + sizeof(std::int32_t))) / sizeof(Quad) + 1;
+  if (scratch.size() < quads) scratch.resize(quads);
+  Keyed* const keyed = reinterpret_cast<Keyed*>(scratch.data());
+  std::int32_t* const cells = reinterpret_cast<std::int32_t*>(keyed + n);
   std::vector<std::int32_t> cursor(pieces * buckets, 0);
   parallel.forRange(pieces, 1, [&](std::int64_t firstPiece, std::int64_t lastPiece) {
     for (std::int64_t piece = firstPiece; piece < lastPiece; ++piece) {
       std::int32_t* count = cursor.data() + piece * buckets;
       for (std::int64_t i = n * piece / pieces; i < n * (piece + 1) / pieces; ++i) {
-        cells_[i] = -1;
+        cells[i] = -1;
         if (!stays(i)) continue;
         const Map& map = maps[oneLevel ? 0 : levelOf[SizeBins::of(reachOf(i), most)]];
-        cells_[i] = map.cellOf(grains.place[i]);
-        ++count[cells_[i] >> bits];
+        cells[i] = map.cellOf(grains.place[i]);
+        ++count[cells[i] >> bits];
       }
     }
   });
@@ -189,14 +196,13 @@ void CellGrid::sort(const GrainStore& grains, const Domain& domain, double range
     }
   }
   bucketStart[buckets] = sum;
-  keyed_.resize(staying);
   order_.resize(staying);
   parallel.forRange(pieces, 1, [&](std::int64_t firstPiece, std::int64_t lastPiece) {
     for (std::int64_t piece = firstPiece; piece < lastPiece; ++piece) {
       std::int32_t* next = cursor.data() + piece * buckets;
       for (std::int64_t i = n * piece / pieces; i < n * (piece + 1) / pieces; ++i)
-        if (const std::int32_t cell = cells_[i]; cell >= 0)
-          keyed_[next[cell >> bits]++] = {cell, static_cast<std::int32_t>(i)};
+        if (const std::int32_t cell = cells[i]; cell >= 0)
+          keyed[next[cell >> bits]++] = {cell, static_cast<std::int32_t>(i)};
     }
   });
   parallel.forRange(buckets, 8, [&](std::int64_t firstBucket, std::int64_t lastBucket) {
@@ -206,12 +212,12 @@ void CellGrid::sort(const GrainStore& grains, const Domain& domain, double range
       // start_ serves as the counters, and as the cursors shifted by one cell.
       std::fill(start_.begin() + first, start_.begin() + last, 0);
       for (std::int32_t k = begin; k < end; ++k)
-        ++start_[keyed_[k].cell];
+        ++start_[keyed[k].cell];
       std::int32_t at = begin;
       for (std::int64_t c = first; c < last; ++c)
         at += std::exchange(start_[c], at);
       for (std::int32_t k = begin; k < end; ++k)
-        order_[start_[keyed_[k].cell]++] = keyed_[k].grain;
+        order_[start_[keyed[k].cell]++] = keyed[k].grain;
       for (std::int64_t c = last - 1; c > first; --c)
         start_[c] = start_[c - 1];
       if (first < last) start_[first] = begin;
@@ -221,8 +227,7 @@ void CellGrid::sort(const GrainStore& grains, const Domain& domain, double range
 }
 
 std::size_t CellGrid::bytes() const {
-  return order_.capacity() * sizeof(order_[0]) + start_.capacity() * sizeof(start_[0]) +
-         keyed_.capacity() * sizeof(keyed_[0]) + cells_.capacity() * sizeof(cells_[0]);
+  return (order_.capacity() + start_.capacity()) * sizeof(std::int32_t);
 }
 
 } // namespace sandglass

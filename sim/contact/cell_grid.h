@@ -34,9 +34,10 @@ public:
   /// (`listed.w`), so that the cells do not depend on how allowances are shared out among grains.
   ///
   /// Lays the cells out and sorts: order()[k] is the grain that comes k-th. Grains of one cell keep their
-  /// order, so what is sorted already stays as it is. Grains whose `drop` flag is set are left out.
+  /// order, so what is sorted already stays as it is. Grains whose `drop` flag is set are left out. `scratch`
+  /// is memory to work in, made larger if need be; what it held is lost.
   void sort(const GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
-            const std::vector<std::uint8_t>& drop);
+            const std::vector<std::uint8_t>& drop, std::vector<Quad>& scratch);
 
   const std::vector<Level>& levels() const { return levels_; } ///< fine to coarse
   const std::vector<std::int32_t>& order() const { return order_; }
@@ -54,11 +55,6 @@ private:
   std::array<bool, 3> periodic_{};
   std::vector<Level> levels_;
   std::vector<std::int32_t> order_, start_;
-  struct Keyed {
-    std::int32_t cell, grain;
-  };
-  std::vector<Keyed> keyed_;
-  std::vector<std::int32_t> cells_;
 };
 
 } // namespace sandglass

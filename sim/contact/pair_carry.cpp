@@ -14,16 +14,16 @@ struct PairCarrier::Row {
   alignas(32) std::array<std::int32_t, PairListing::slotCount + 1> entries; ///< the slots, and an empty one
 };
 
-void PairCarrier::retire(PairListing& listing, int historySize) {
+void PairCarrier::retire(PairListing& listing) {
   listing.pairs.push_back({-1, -1});
-  listing.history.resize(listing.history.size() + static_cast<std::size_t>(PairListing::lane * historySize));
   if (!listing.shiftOf.empty()) listing.shiftOf.push_back(0);
   if (!listing.live.empty()) listing.live.push_back(0);
 }
 
-PairCarrier::PairCarrier(const PairListing& past, PairListing& now, const std::vector<std::int32_t>& order,
-                         const std::vector<std::int32_t>& wrapped, int historySize)
-    : past_(past), now_(now), order_(order), wrapped_(wrapped),
+PairCarrier::PairCarrier(const PairListing& past, const double* pastHistory, PairListing& now,
+                         const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& wrapped,
+                         int historySize)
+    : past_(past), pastHistory_(pastHistory), now_(now), order_(order), wrapped_(wrapped),
       flat_(reinterpret_cast<const std::int32_t*>(past.pairs.data())),
       empty_(static_cast<std::int32_t>(past.entries << 1)), historySize_(historySize),
       imaged_(!now.shiftOf.empty()), sameCodes_(past.codes.reach == now.codes.reach) {}
@@ -55,7 +55,7 @@ void PairCarrier::carryRow(const Row& row, const std::int32_t* partners, std::in
   constexpr std::int64_t lane = PairListing::lane;
   const int size = fixedSize < 0 ? historySize_ : fixedSize;
   double* const now = now_.history.data();
-  const double* const past = past_.history.data();
+  const double* const past = pastHistory_;
   std::uint8_t* const live = now_.live.empty() ? nullptr : now_.live.data();
   const std::uint8_t* const shiftOf = imaged_ ? now_.shiftOf.data() : nullptr;
   for (std::int64_t k = 0; k < count; ++k, ++p) {

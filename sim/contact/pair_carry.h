@@ -18,13 +18,15 @@ public:
     return (shift[0] * 1024 + shift[1]) * 1024 + shift[2];
   }
 
-  /// Makes a listing the old one: what empty slots point at gets a pair, a history of zeros and the like.
-  static void retire(PairListing& listing, int historySize);
+  /// Makes a listing the old one: what empty slots point at gets a pair and the like.
+  static void retire(PairListing& listing);
 
   /// `order` gives the old storage index of each grain, and `wrapped` by how many boxes (packed, by old
   /// index) its image counters have grown since then (empty without periodic directions).
-  PairCarrier(const PairListing& past, PairListing& now, const std::vector<std::int32_t>& order,
-              const std::vector<std::int32_t>& wrapped, int historySize);
+  /// `pastHistory` is the old array of histories with `lane` histories of zeros behind it.
+  PairCarrier(const PairListing& past, const double* pastHistory, PairListing& now,
+              const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& wrapped,
+              int historySize);
 
   /// Pairs p, p + 1, ... of the row of grain i, with `count` partners: copies histories and live flags, or
   /// sets them to zero. The pairs are written already.
@@ -45,6 +47,7 @@ private:
   }
 
   const PairListing& past_;
+  const double* pastHistory_;
   PairListing& now_;
   const std::vector<std::int32_t>&order_, &wrapped_;
   const std::int32_t* flat_; ///< old pairs as numbers: entry ^ 1 is where the other grain of an entry stands

@@ -54,19 +54,39 @@ PairList::PairList(const Domain& domain, int historySize, int outputQuads, bool 
 void PairList::build(GrainStore& grains, double range, Parallel& parallel,
                      const std::vector<std::uint8_t>& drop, const Allow& allow) {
   if (periodic_) wrap(grains, parallel);
-  grid_.sort(grains, domain_, range, parallel, drop);
+  grid_.sort(grains, domain_, range, parallel, drop, output_);
   grains.reorder(grid_.order(), parallel, output_);
+  std::swap(now_, past_);
+  std::swap(now_.history, past_.history); // stays
+  PairCarrier::retire(past_);
+  now_.grains = static_cast<std::int64_t>(grains.size());
+  lendMemory(parallel);
   fillColumns(grains, range, parallel, allow);
 
-  std::swap(now_, past_);
-  PairCarrier::retire(past_, historySize_);
   if (periodic_) now_.codes = ImageCodes(domain_, 2.0 * grid_.largestReach());
-  now_.grains = static_cast<std::int64_t>(grains.size());
   cut(now_.grains);
   search(parallel);
   layOut();
   writeRows(grains, parallel);
+  makeRoom(output_, (now_.entries + 1) * outputQuads_);
+  std::fill(output_.end() - outputQuads_, output_.end(), Quad{});
   link(parallel);
+}
+
+/// Parts of the output array for the columns and for the old histories: as much memory of their own would be
+/// a fifth of all that a grain takes.
+void PairList::lendMemory(Parallel& parallel) {
+  const std::size_t columns = GrainColumns::numbers(now_.grains), old = now_.history.size(),
+                    zeros = static_cast<std::size_t>(lane * historySize_);
+  const std::size_t quads = (columns + old + zeros) / 4 + 1;
+  if (output_.size() < quads) output_.resize(quads);
+  double* const memory = &output_[0].x;
+  columns_ = GrainColumns(now_.grains, memory);
+  pastHistory_ = memory + columns;
+  parallel.forRange(static_cast<std::int64_t>(old), 16384, [&](std::int64_t first, std::int64_t last) {
+    std::copy(now_.history.begin() + first, now_.history.begin() + last, pastHistory_ + first);
+  });
+  std::fill_n(pastHistory_ + old, zeros, 0.0);
 }
 
 void PairList::wrap(GrainStore& grains, Parallel& parallel) {
@@ -100,7 +120,6 @@ void PairList::wrap(GrainStore& grains, Parallel& parallel) {
 
 void PairList::fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow) {
   const std::int64_t n = static_cast<std::int64_t>(grains.size());
-  columns_.resize(static_cast<std::size_t>(n));
   parallel.forRange((n + group - 1) / group, grainsPerPiece / group, [&](std::int64_t from, std::int64_t to) {
     for (std::int64_t g = from; g < to; ++g) {
       const std::int64_t first = g * group, last = std::min(n, first + group);
@@ -196,10 +215,8 @@ void PairList::layOut() {
   now_.entries = at;
   makeRoom(now_.pairs, at, 1);
   if (periodic_) makeRoom(now_.shiftOf, at, 1); // and one more each to retire
-  makeRoom(now_.history, at * historySize_, lane * historySize_);
+  makeRoom(now_.history, at * historySize_);
   if (keepsLive_) makeRoom(now_.live, at, 1);
-  makeRoom(output_, (at + 1) * outputQuads_);
-  std::fill(output_.end() - outputQuads_, output_.end(), Quad{});
   groupEnd_.resize(static_cast<std::size_t>(now_.groups()));
   for (const Range& pad : pads)
     fillPadding(pad.begin, pad.end);
@@ -219,7 +236,7 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
   const bool carries = historySize_ > 0 || keepsLive_;
   const std::int64_t* id = grains.id.data();
   parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
-    PairCarrier carrier(past_, now_, grid_.order(), wrapped_, historySize_);
+    PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), wrapped_, historySize_);
     for (std::int64_t b = first; b < last; ++b) {
       const Block& block = blocks_[b];
       const std::int64_t chunkEnd = chunkGrains_[block.chunk].end;
@@ -337,7 +354,7 @@ std::int64_t PairList::imageKey(std::int64_t p, const GrainStore& grains) const 
 
 std::size_t PairList::bytes() const {
   std::size_t total = now_.bytes() + past_.bytes() + output_.capacity() * sizeof(Quad) +
-                      groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() + columns_.bytes() +
+                      groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() +
                       (rowLength_.capacity() + wrapped_.capacity()) * sizeof(std::int32_t) +
                       filled_.capacity();
   for (const Block& block : blocks_)

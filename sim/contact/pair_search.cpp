@@ -37,9 +37,17 @@ Window window(const CellGrid::Level& here, const CellGrid::Level& there, int at,
 
 /// Orders a row by (partner, code).
 void sortRow(std::int32_t* partner, std::uint8_t* code, std::int64_t size) {
-  std::vector<std::int64_t> row(size);
+  const auto key = [&](std::int64_t k) {
+    return static_cast<std::int64_t>(partner[k]) << 8 | (code ? code[k] : 0);
+  };
+  bool sorted = true;
+  for (std::int64_t k = 1; k < size; ++k)
+    sorted &= key(k - 1) < key(k);
+  if (sorted) return;
+  thread_local std::vector<std::int64_t> row;
+  row.resize(static_cast<std::size_t>(size));
   for (std::int64_t k = 0; k < size; ++k)
-    row[k] = static_cast<std::int64_t>(partner[k]) << 8 | (code ? code[k] : 0);
+    row[k] = key(k);
   std::sort(row.begin(), row.end());
   for (std::int64_t k = 0; k < size; ++k) {
     partner[k] = static_cast<std::int32_t>(row[k] >> 8);
@@ -48,11 +56,6 @@ void sortRow(std::int32_t* partner, std::uint8_t* code, std::int64_t size) {
 }
 
 } // namespace
-
-void GrainColumns::resize(std::size_t n) {
-  for (auto* column : {&x, &y, &z, &reach})
-    column->resize(n + CellSearch::readAhead);
-}
 
 /// Cells one above the other on some level, in one image along x and y.
 struct PairSearch::Column {
@@ -183,10 +186,10 @@ void PairSearch::rows(std::int64_t first, std::int64_t last, std::int64_t crossi
                       FoundRows& found) const {
   found.size = found.crossing = 0;
   CellSearch task{};
-  task.x = columns_.x.data();
-  task.y = columns_.y.data();
-  task.z = columns_.z.data();
-  task.reach = columns_.reach.data();
+  task.x = columns_.x;
+  task.y = columns_.y;
+  task.z = columns_.z;
+  task.reach = columns_.reach;
   task.shift = codes_.shift.data();
   task.center = codes_.center();
   eachCell(first, last, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
@@ -217,14 +220,13 @@ void PairSearch::rows(std::int64_t first, std::int64_t last, std::int64_t crossi
 
 std::int64_t PairSearch::distanceTests() const {
   std::int64_t tests = 0;
-  eachCell(0, static_cast<std::int64_t>(columns_.x.size()) - CellSearch::readAhead,
-           [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
-             for (std::int32_t i = begin; i < end; ++i)
-               for (int k = 0; k < scratch.count; ++k) {
-                 const Stretch& s = scratch.stretches[k];
-                 tests += std::max(0, s.end - std::max(s.begin, s.code > codes_.center() ? i : i + 1));
-               }
-           });
+  eachCell(0, columns_.grains, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t i = begin; i < end; ++i)
+      for (int k = 0; k < scratch.count; ++k) {
+        const Stretch& s = scratch.stretches[k];
+        tests += std::max(0, s.end - std::max(s.begin, s.code > codes_.center() ? i : i + 1));
+      }
+  });
   return tests;
 }
 

@@ -434,12 +434,12 @@ namespace {
 double testsPerOccupant(const Domain& domain, GrainStore& store, double range) {
   Parallel parallel(2);
   CellGrid grid;
-  grid.sort(store, domain, range, parallel, {});
   std::vector<Quad> scratch;
+  grid.sort(store, domain, range, parallel, {}, scratch);
   store.reorder(grid.order(), parallel, scratch);
   const double n = static_cast<double>(store.size());
   GrainColumns columns;
-  columns.resize(store.size());
+  columns.grains = static_cast<std::int64_t>(store.size());
   const ImageCodes codes(domain, 2.0 * grid.largestReach());
   const PairSearch search(grid, codes, columns, KernelWidth::plain);
   const auto& count = grid.levels().front().count;
@@ -489,7 +489,8 @@ TEST_CASE("a sorted grid chains each grain to exactly one cell") {
     store.place[1000 * i].w = 0.2;
   Parallel parallel(3);
   CellGrid grid;
-  grid.sort(store, domain, 0.001, parallel, {});
+  std::vector<Quad> scratch;
+  grid.sort(store, domain, 0.001, parallel, {}, scratch);
   std::vector<std::int32_t> order = grid.order();
   CHECK(grid.levels().size() > 1);
   REQUIRE(order.size() == store.size());
