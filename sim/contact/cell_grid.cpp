@@ -1,11 +1,13 @@
 #include "sim/contact/cell_grid.h"
 
+#include "sim/contact/image_codes.h"
 #include "sim/contact/size_levels.h"
 
 #include <immintrin.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -20,6 +22,42 @@ constexpr double safety = 1.0 + 1e-9;
 struct Numbers {
   alignas(32) std::array<double, 4> at;
   explicit Numbers(__m256d v) { _mm256_store_pd(at.data(), v); }
+};
+
+/// The periodic box; without end along other directions.
+class Box {
+public:
+  explicit Box(const Domain& domain) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      periodic = periodic || domain.periodic[k];
+      lower_[k] = domain.periodic[k] ? domain.lower[k] : -infinity;
+      upper_[k] = domain.periodic[k] ? domain.upper[k] : infinity;
+      extent_[k] = domain.upper[k] - domain.lower[k];
+    }
+  }
+  bool periodic = false;
+
+  bool holds(const Quad& q) const {
+    return !((q.x < lower_[0]) | (q.x >= upper_[0]) | (q.y < lower_[1]) | (q.y >= upper_[1]) |
+             (q.z < lower_[2]) | (q.z >= upper_[2]));
+  }
+  /// By how many boxes the grain had left.
+  std::array<int, 3> wrap(Quad& q) const {
+    std::array<int, 3> boxes{0, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+      double& x = k == 0 ? q.x : k == 1 ? q.y : q.z;
+      while (x >= upper_[k])
+        x -= extent_[k], ++boxes[k];
+      while (x < lower_[k])
+        x += extent_[k], --boxes[k];
+      if (x >= upper_[k]) x = lower_[k]; // x + L rounded up to the upper side
+    }
+    return boxes;
+  }
+
+private:
+  std::array<double, 3> lower_{}, upper_{}, extent_{};
 };
 
 } // namespace
@@ -100,13 +138,15 @@ void CellGrid::lay(const Domain& domain, const Bounds& bounds) {
   start_.resize(static_cast<std::size_t>(cells) + 1);
 }
 
-void CellGrid::sort(const GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
+void CellGrid::sort(GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
                     const std::vector<std::uint8_t>& drop, std::vector<Quad>& scratch) {
   const std::int64_t n = static_cast<std::int64_t>(grains.size());
   const auto stays = [&](std::int64_t i) { return drop.empty() || !drop[i]; };
 
   // Grains that go must not shape the grid: a list built anew from the positions of those that stay is the
   // same.
+  const Box box(domain);
+  wrapped_.resize(box.periodic ? grains.size() : 0);
   std::mutex guard;
   Bounds bounds;
   std::int64_t staying = 0;
@@ -114,6 +154,15 @@ void CellGrid::sort(const GrainStore& grains, const Domain& domain, double range
     Bounds mine;
     std::int64_t count = 0;
     for (std::int64_t i = first; i < last; ++i) {
+      if (box.periodic) {
+        wrapped_[i] = 0;
+        if (!box.holds(grains.place[i])) {
+          const std::array<int, 3> boxes = box.wrap(grains.place[i]);
+          for (int k = 0; k < 3; ++k)
+            grains.image[i][k] += boxes[k];
+          wrapped_[i] = ImageCodes::pack(boxes);
+        }
+      }
       if (!stays(i)) continue;
       ++count;
       mine.take(grains.place[i], grains.listed[i].w);
@@ -227,7 +276,7 @@ void CellGrid::sort(const GrainStore& grains, const Domain& domain, double range
 }
 
 std::size_t CellGrid::bytes() const {
-  return (order_.capacity() + start_.capacity()) * sizeof(std::int32_t);
+  return (order_.capacity() + start_.capacity() + wrapped_.capacity()) * sizeof(std::int32_t);
 }
 
 } // namespace sandglass

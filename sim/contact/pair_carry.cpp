@@ -99,8 +99,8 @@ std::int64_t PairCarrier::find(const Row& row, unsigned matches, std::int32_t pa
 bool PairCarrier::sameImage(std::int64_t old, std::int64_t p) const {
   if (!imaged_) return true;
   const PairListing::Pair pair = past_.pairs[old];
-  return pack(past_.codes.image[past_.shiftOf[old]]) ==
-         pack(now_.codes.image[now_.shiftOf[p]]) + wrapped_[pair.a] - wrapped_[pair.b];
+  return ImageCodes::pack(past_.codes.image[past_.shiftOf[old]]) ==
+         ImageCodes::pack(now_.codes.image[now_.shiftOf[p]]) + wrapped_[pair.a] - wrapped_[pair.b];
 }
 
 std::int64_t PairCarrier::findAmong(std::int32_t grain, std::int32_t partner, std::int64_t p) const {

@@ -12,12 +12,6 @@ namespace sandglass {
 
 class PairCarrier {
 public:
-  /// Shifts of a grain by whole boxes as one number: sums and differences of shifts are those of the numbers
-  /// (components below 512).
-  static std::int32_t pack(const std::array<int, 3>& shift) {
-    return (shift[0] * 1024 + shift[1]) * 1024 + shift[2];
-  }
-
   /// Makes a listing the old one: what empty slots point at gets a pair and the like.
   static void retire(PairListing& listing);
 

@@ -7,13 +7,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 namespace sandglass {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t grainsPerPiece = 2048;
 constexpr std::int64_t grainsPerChunk = 2048, mostChunks = 16;
 constexpr std::int64_t groupsPerBlock = 8, mostBlocks = 64; ///< least and most
@@ -22,10 +20,6 @@ constexpr std::int64_t groupsPerBlock = 8, mostBlocks = 64; ///< least and most
 std::int64_t packImage(const std::array<std::int64_t, 3>& n) {
   constexpr std::int64_t bias = 1 << 20, base = 1 << 21;
   return ((n[0] + bias) * base + (n[1] + bias)) * base + (n[2] + bias);
-}
-
-double& component(Quad& q, int axis) {
-  return axis == 0 ? q.x : axis == 1 ? q.y : q.z;
 }
 
 std::int64_t padded(std::int64_t n) {
@@ -53,7 +47,6 @@ PairList::PairList(const Domain& domain, int historySize, int outputQuads, bool 
 
 void PairList::build(GrainStore& grains, double range, Parallel& parallel,
                      const std::vector<std::uint8_t>& drop, const Allow& allow) {
-  if (periodic_) wrap(grains, parallel);
   grid_.sort(grains, domain_, range, parallel, drop, output_);
   grains.reorder(grid_.order(), parallel, output_);
   std::swap(now_, past_);
@@ -87,35 +80,6 @@ void PairList::lendMemory(Parallel& parallel) {
     std::copy(now_.history.begin() + first, now_.history.begin() + last, pastHistory_ + first);
   });
   std::fill_n(pastHistory_ + old, zeros, 0.0);
-}
-
-void PairList::wrap(GrainStore& grains, Parallel& parallel) {
-  const Vec3 extent = domain_.upper - domain_.lower;
-  std::array<double, 3> lower{-infinity, -infinity, -infinity}, upper{infinity, infinity, infinity};
-  for (int axis = 0; axis < 3; ++axis)
-    if (domain_.periodic[axis]) lower[axis] = domain_.lower[axis], upper[axis] = domain_.upper[axis];
-  const std::int64_t n = static_cast<std::int64_t>(grains.size());
-  wrapped_.resize(static_cast<std::size_t>(n));
-  parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) {
-      wrapped_[i] = 0;
-      Quad& q = grains.place[i];
-      const bool outside = (q.x < lower[0]) | (q.x >= upper[0]) | (q.y < lower[1]) | (q.y >= upper[1]) |
-                           (q.z < lower[2]) | (q.z >= upper[2]);
-      if (!outside) continue;
-      std::array<int, 3> shift{0, 0, 0};
-      for (int axis = 0; axis < 3; ++axis) {
-        double& x = component(q, axis);
-        while (x >= upper[axis])
-          x -= extent[axis], ++shift[axis];
-        while (x < lower[axis])
-          x += extent[axis], --shift[axis];
-        if (x >= upper[axis]) x = lower[axis]; // x + L rounded up to the upper side
-        grains.image[i][axis] += shift[axis];
-      }
-      wrapped_[i] = PairCarrier::pack(shift);
-    }
-  });
 }
 
 void PairList::fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow) {
@@ -236,7 +200,7 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
   const bool carries = historySize_ > 0 || keepsLive_;
   const std::int64_t* id = grains.id.data();
   parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
-    PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), wrapped_, historySize_);
+    PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), grid_.wrapped(), historySize_);
     for (std::int64_t b = first; b < last; ++b) {
       const Block& block = blocks_[b];
       const std::int64_t chunkEnd = chunkGrains_[block.chunk].end;
@@ -355,8 +319,7 @@ std::int64_t PairList::imageKey(std::int64_t p, const GrainStore& grains) const 
 std::size_t PairList::bytes() const {
   std::size_t total = now_.bytes() + past_.bytes() + output_.capacity() * sizeof(Quad) +
                       groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() +
-                      (rowLength_.capacity() + wrapped_.capacity()) * sizeof(std::int32_t) +
-                      filled_.capacity();
+                      rowLength_.capacity() * sizeof(std::int32_t) + filled_.capacity();
   for (const Block& block : blocks_)
     total += block.rows.bytes();
   return total;

@@ -118,7 +118,6 @@ private:
   std::size_t placeOf(std::int64_t p, int k) const {
     return static_cast<std::size_t>(p / lane * lane * historySize_ + k * lane + p % lane);
   }
-  void wrap(GrainStore& grains, Parallel& parallel);
   void fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow);
   void lendMemory(Parallel& parallel);
   void cut(std::int64_t grains);
@@ -145,7 +144,7 @@ private:
   GrainColumns columns_;          ///< in output_, which nobody reads during a build
   double* pastHistory_ = nullptr; ///< likewise
   std::vector<Block> blocks_;
-  std::vector<std::int32_t> rowLength_, wrapped_;
+  std::vector<std::int32_t> rowLength_;
   std::vector<std::uint8_t> filled_;
 };
 

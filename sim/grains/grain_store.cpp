@@ -39,6 +39,24 @@ void permute(std::vector<T>& values, const std::vector<std::int32_t>& order, Par
   });
 }
 
+/// The same for how far grains may move; positions at listing time are about to be written anew.
+void permuteAllowances(std::vector<Quad>& listed, const std::vector<std::int32_t>& order, Parallel& parallel,
+                       std::vector<Quad>& scratch) {
+  const std::size_t quads = order.size() / 4 + 1;
+  if (scratch.size() < quads) scratch.resize(quads);
+  double* const moved = &scratch[0].x;
+  const auto n = static_cast<std::int64_t>(order.size());
+  parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      moved[i] = listed[order[i]].w;
+  });
+  listed.resize(order.size());
+  parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      listed[i].w = moved[i];
+  });
+}
+
 } // namespace
 
 void GrainStore::keep(bool turningGrains, bool imagedGrains) {
@@ -71,7 +89,7 @@ void GrainStore::setRecords(std::vector<Quad> records) {
 void GrainStore::reorder(const std::vector<std::int32_t>& order, Parallel& parallel,
                          std::vector<Quad>& scratch) {
   permute(records_, order, parallel, scratch, phantoms, quadsPerRecord());
-  permute(listed, order, parallel, scratch);
+  permuteAllowances(listed, order, parallel, scratch);
   permute(id, order, parallel, scratch);
   permute(species, order, parallel, scratch);
   permute(material, order, parallel, scratch, phantoms);

@@ -45,9 +45,9 @@ public:
   bool turning = false; ///< spins are kept
   bool imaged = false;  ///< image counters are kept
 
-  QuadColumn place;  ///< position [m], radius [m]
-  QuadColumn motion; ///< velocity [m/s], 1/mass [1/kg]
-  QuadColumn roll;   ///< radius times spin [m/s], 1/radius [1/m]; when turning
+  QuadColumn place;         ///< position [m], radius [m]
+  QuadColumn motion;        ///< velocity [m/s], 1/mass [1/kg]
+  QuadColumn roll;          ///< radius times spin [m/s], 1/radius [1/m]; when turning
   std::vector<Quad> listed; ///< position when the list was built, and how far the grain may move from it [m]
   std::vector<std::int64_t> id;
   std::vector<std::int16_t> species;
@@ -71,7 +71,8 @@ public:
   void setRecords(std::vector<Quad> records);
 
   /// Keeps the grains listed in `order` (storage indices), in that order.
-  /// `scratch` is memory to work in, made larger if need be; what it held is lost.
+  /// Of `listed`, only w goes with a grain. `scratch` is memory to work in, made larger if need be; what it
+  /// held is lost.
   void reorder(const std::vector<std::int32_t>& order, Parallel& parallel, std::vector<Quad>& scratch);
   void resize(std::size_t n);
   std::size_t bytesPerGrain() const;
