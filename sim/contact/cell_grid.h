@@ -28,44 +28,36 @@ public:
     std::array<int, 3> count{1, 1, 1};
     std::array<int, 3> look{0, 0, 0}; ///< cells to look beyond one's own for partners of the same level
     std::int32_t firstCell = 0;
-
-    int along(double x, int axis) const {
-      const int c = static_cast<int>((x - lower[axis]) * perWidth[axis]);
-      return c < 0 ? 0 : c < count[axis] ? c : count[axis] - 1;
-    }
-    std::int32_t cellOf(const Quad& q) const {
-      return firstCell + (along(q.x, 0) * count[1] + along(q.y, 1)) * count[2] + along(q.z, 2);
-    }
   };
 
   /// The reach of a grain, here, is its radius + range / 2 + the largest motion that any grain is allowed
   /// (`listed.w`), so that the cells do not depend on how allowances are shared out among grains.
   ///
-  /// Lays the cells out and sorts: order()[k] is the grain that comes k-th. Grains of one cell keep their
-  /// order, so what is sorted already stays as it is. Grains whose `drop` flag is set are left out.
-  void sort(const GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
-            const std::vector<std::uint8_t>& drop);
+  /// Wraps the grains into the periodic box, lays the cells out and sorts: order()[k] is the grain that comes
+  /// k-th. Grains of one cell keep their order, so what is sorted already stays as it is. Grains whose `drop`
+  /// flag is set are left out. `scratch` is memory to work in, made larger if need be; what it held is lost.
+  void sort(GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
+            const std::vector<std::uint8_t>& drop, std::vector<Quad>& scratch);
 
   const std::vector<Level>& levels() const { return levels_; } ///< fine to coarse
   const std::vector<std::int32_t>& order() const { return order_; }
   /// First grain of each cell, as a place in order(); one more at the end.
   const std::vector<std::int32_t>& start() const { return start_; }
+  /// By how many boxes each grain's image counters grew, packed (ImageCodes::pack), in the order before
+  /// sorting; empty without periodic directions.
+  const std::vector<std::int32_t>& wrapped() const { return wrapped_; }
   const std::array<bool, 3>& periodic() const { return periodic_; }
   double largestReach() const { return levels_.back().reach; }
   std::size_t bytes() const;
 
 private:
   struct Bounds;
+  struct Map;
   void lay(const Domain& domain, const Bounds& bounds);
 
   std::array<bool, 3> periodic_{};
   std::vector<Level> levels_;
-  std::vector<std::int32_t> order_, start_;
-  struct Keyed {
-    std::int32_t cell, grain;
-  };
-  std::vector<Keyed> keyed_;
-  std::vector<std::int32_t> cells_;
+  std::vector<std::int32_t> order_, start_, wrapped_;
 };
 
 } // namespace sandglass

@@ -7,6 +7,7 @@
 #include "sim/grains/grain_store.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace sandglass {
@@ -15,6 +16,12 @@ struct ImageCodes {
   std::array<int, 3> reach{0, 0, 0}; ///< images to either side along an axis
   std::vector<std::array<int, 3>> image{{0, 0, 0}};
   std::vector<Quad> shift{Quad{}}; ///< [m]; w is 0
+
+  /// Shifts by whole boxes as one number: sums and differences of shifts are those of the numbers (components
+  /// below 512).
+  static std::int32_t pack(const std::array<int, 3>& boxes) {
+    return (boxes[0] * 1024 + boxes[1]) * 1024 + boxes[2];
+  }
 
   ImageCodes() = default;
   /// All images whose grains can be nearer than `cutoff` to a grain of the box. Throws InputError when they

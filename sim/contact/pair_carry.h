@@ -12,35 +12,42 @@ namespace sandglass {
 
 class PairCarrier {
 public:
-  /// Shifts of a grain by whole boxes as one number: sums and differences of shifts are those of the numbers
-  /// (components below 512).
-  static std::int32_t pack(const std::array<int, 3>& shift) {
-    return (shift[0] * 1024 + shift[1]) * 1024 + shift[2];
-  }
+  /// Makes a listing the old one: what empty slots point at gets a pair and the like.
+  static void retire(PairListing& listing);
 
   /// `order` gives the old storage index of each grain, and `wrapped` by how many boxes (packed, by old
-  /// index) its image counters have grown since then; empty when no grain was wrapped.
-  PairCarrier(PairListing& past, PairListing& now, const std::vector<std::int32_t>& order,
-              const std::vector<std::int32_t>& wrapped, int historySize);
+  /// index) its image counters have grown since then (empty without periodic directions).
+  /// `pastHistory` is the old array of histories with `lane` histories of zeros behind it.
+  PairCarrier(const PairListing& past, const double* pastHistory, PairListing& now,
+              const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& wrapped,
+              int historySize);
 
-  /// The row of grain i follows.
-  void openRow(std::int64_t i);
-  /// Pair p of that row, with partner j: copies history and live flag, or sets them to zero.
-  void carry(std::int32_t j, std::int64_t p);
+  /// Pairs p, p + 1, ... of the row of grain i, with `count` partners: copies histories and live flags, or
+  /// sets them to zero. The pairs are written already.
+  void carry(std::int64_t i, const std::int32_t* partners, std::int64_t count, std::int64_t p);
 
 private:
+  struct Row; ///< a grain whose old contacts are at hand
+  template <int fixedSize>
+  void carryRow(const Row& row, const std::int32_t* partners, std::int64_t count, std::int64_t p);
+  void startAnew(std::int64_t p);
   bool sameImage(std::int64_t old, std::int64_t p) const;
-  std::int64_t find(std::int32_t partner, std::int64_t p) const;
+  std::int64_t find(const Row& row, unsigned matches, std::int32_t partner, std::int64_t p) const;
   std::int64_t findAmong(std::int32_t grain, std::int32_t partner, std::int64_t p) const;
-  std::int64_t findFurther(std::int32_t partner, std::int64_t p) const;
+  std::int64_t findFurther(std::int32_t grain, std::int32_t partner, std::int64_t p) const;
+
+  const std::int32_t* slotsOf(std::int32_t oldGrain) const {
+    return past_.slots.data() + static_cast<std::int64_t>(oldGrain) * PairListing::slotCount;
+  }
 
   const PairListing& past_;
+  const double* pastHistory_;
   PairListing& now_;
   const std::vector<std::int32_t>&order_, &wrapped_;
   const std::int32_t* flat_; ///< old pairs as numbers: entry ^ 1 is where the other grain of an entry stands
+  const std::int32_t empty_; ///< what stands in an empty old slot
   const int historySize_;
-  std::int32_t grain_ = -1; ///< old storage index of the row's grain; negative: it is new
-  alignas(32) std::array<std::int32_t, PairListing::slotCount> partners_{};
+  const bool imaged_, sameCodes_; ///< image codes mean what they meant
 };
 
 } // namespace sandglass

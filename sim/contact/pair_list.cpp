@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace sandglass {
 
@@ -21,10 +20,6 @@ constexpr std::int64_t groupsPerBlock = 8, mostBlocks = 64; ///< least and most
 std::int64_t packImage(const std::array<std::int64_t, 3>& n) {
   constexpr std::int64_t bias = 1 << 20, base = 1 << 21;
   return ((n[0] + bias) * base + (n[1] + bias)) * base + (n[2] + bias);
-}
-
-double& component(Quad& q, int axis) {
-  return axis == 0 ? q.x : axis == 1 ? q.y : q.z;
 }
 
 std::int64_t padded(std::int64_t n) {
@@ -52,48 +47,43 @@ PairList::PairList(const Domain& domain, int historySize, int outputQuads, bool 
 
 void PairList::build(GrainStore& grains, double range, Parallel& parallel,
                      const std::vector<std::uint8_t>& drop, const Allow& allow) {
-  if (periodic_) wrap(grains, parallel);
-  grid_.sort(grains, domain_, range, parallel, drop);
-  grains.reorder(grid_.order(), parallel);
+  grid_.sort(grains, domain_, range, parallel, drop, output_);
+  grains.reorder(grid_.order(), parallel, output_);
+  std::swap(now_, past_);
+  std::swap(now_.history, past_.history); // stays
+  PairCarrier::retire(past_);
+  now_.grains = static_cast<std::int64_t>(grains.size());
+  lendMemory(parallel);
   fillColumns(grains, range, parallel, allow);
 
-  std::swap(now_, past_);
-  past_.pairs.push_back({-1, -1}); // what empty slots point at
   if (periodic_) now_.codes = ImageCodes(domain_, 2.0 * grid_.largestReach());
-  now_.grains = static_cast<std::int64_t>(grains.size());
   cut(now_.grains);
   search(parallel);
   layOut();
   writeRows(grains, parallel);
+  makeRoom(output_, (now_.entries + 1) * outputQuads_);
+  std::fill(output_.end() - outputQuads_, output_.end(), Quad{});
   link(parallel);
 }
 
-void PairList::wrap(GrainStore& grains, Parallel& parallel) {
-  const Vec3 extent = domain_.upper - domain_.lower;
-  const std::int64_t n = static_cast<std::int64_t>(grains.size());
-  wrapped_.resize(static_cast<std::size_t>(n));
-  parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) {
-      std::array<int, 3> shift{0, 0, 0};
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!domain_.periodic[axis]) continue;
-        double& x = component(grains.place[i], axis);
-        if (x >= domain_.lower[axis] && x < domain_.upper[axis]) continue;
-        while (x >= domain_.upper[axis])
-          x -= extent[axis], ++shift[axis];
-        while (x < domain_.lower[axis])
-          x += extent[axis], --shift[axis];
-        if (x >= domain_.upper[axis]) x = domain_.lower[axis]; // x + L rounded up to the upper side
-        grains.image[i][axis] += shift[axis];
-      }
-      wrapped_[i] = PairCarrier::pack(shift);
-    }
+/// Parts of the output array for the columns and for the old histories: as much memory of their own would be
+/// a fifth of all that a grain takes.
+void PairList::lendMemory(Parallel& parallel) {
+  const std::size_t columns = GrainColumns::numbers(now_.grains), old = now_.history.size(),
+                    zeros = static_cast<std::size_t>(lane * historySize_);
+  const std::size_t quads = (columns + old + zeros) / 4 + 1;
+  if (output_.size() < quads) output_.resize(quads);
+  double* const memory = &output_[0].x;
+  columns_ = GrainColumns(now_.grains, memory);
+  pastHistory_ = memory + columns;
+  parallel.forRange(static_cast<std::int64_t>(old), 16384, [&](std::int64_t first, std::int64_t last) {
+    std::copy(now_.history.begin() + first, now_.history.begin() + last, pastHistory_ + first);
   });
+  std::fill_n(pastHistory_ + old, zeros, 0.0);
 }
 
 void PairList::fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow) {
   const std::int64_t n = static_cast<std::int64_t>(grains.size());
-  columns_.resize(static_cast<std::size_t>(n));
   parallel.forRange((n + group - 1) / group, grainsPerPiece / group, [&](std::int64_t from, std::int64_t to) {
     for (std::int64_t g = from; g < to; ++g) {
       const std::int64_t first = g * group, last = std::min(n, first + group);
@@ -188,11 +178,9 @@ void PairList::layOut() {
 
   now_.entries = at;
   makeRoom(now_.pairs, at, 1);
-  if (periodic_) makeRoom(now_.shiftOf, at);
+  if (periodic_) makeRoom(now_.shiftOf, at, 1); // and one more each to retire
   makeRoom(now_.history, at * historySize_);
-  if (keepsLive_) makeRoom(now_.live, at);
-  makeRoom(output_, (at + 1) * outputQuads_);
-  std::fill(output_.end() - outputQuads_, output_.end(), Quad{});
+  if (keepsLive_) makeRoom(now_.live, at, 1);
   groupEnd_.resize(static_cast<std::size_t>(now_.groups()));
   for (const Range& pad : pads)
     fillPadding(pad.begin, pad.end);
@@ -212,28 +200,37 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
   const bool carries = historySize_ > 0 || keepsLive_;
   const std::int64_t* id = grains.id.data();
   parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
-    PairCarrier carrier(past_, now_, grid_.order(), wrapped_, historySize_);
+    PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), grid_.wrapped(), historySize_);
     for (std::int64_t b = first; b < last; ++b) {
       const Block& block = blocks_[b];
       const std::int64_t chunkEnd = chunkGrains_[block.chunk].end;
       const std::int32_t* partner = block.rows.partner.data();
       const std::uint8_t* code = periodic_ ? block.rows.code.data() : nullptr;
       std::int64_t inside = block.firstPair, crossing = block.firstCrossing;
-      for (std::int64_t i = block.firstGrain; i < block.lastGrain; ++i) {
-        if (carries) carrier.openRow(i);
-        for (std::int32_t k = 0; k < rowLength_[i]; ++k) {
-          const std::int32_t j = *partner++;
-          const std::int64_t p = j < chunkEnd ? inside++ : crossing++;
-          // Oriented by id; turning a pair round mirrors its image.
-          const bool turned = id[i] > id[j];
-          const std::int32_t me = static_cast<std::int32_t>(i);
-          now_.pairs[p] = turned ? Pair{j, me} : Pair{me, j};
-          if (code) {
-            now_.shiftOf[p] = static_cast<std::uint8_t>(turned ? now_.codes.mirrored(*code) : *code);
-            ++code;
-          }
-          if (carries) carrier.carry(j, p);
+      const auto write = [&](std::int64_t i, std::int64_t count, std::int64_t p) {
+        const auto me = static_cast<std::int32_t>(i);
+        const std::int64_t mine = id[i];
+        for (std::int64_t k = 0; k < count; ++k) {
+          const std::int32_t j = partner[k];
+          const bool turned = mine > id[j]; // oriented by id
+          now_.pairs[p + k] = {turned ? j : me, turned ? me : j};
+          if (!code) continue;
+          const int seen = code[k]; // turning a pair round mirrors its image
+          now_.shiftOf[p + k] = static_cast<std::uint8_t>(turned ? now_.codes.mirrored(seen) : seen);
         }
+        if (carries) carrier.carry(i, partner, count, p);
+        partner += count;
+        if (code) code += count;
+      };
+      for (std::int64_t i = block.firstGrain; i < block.lastGrain; ++i) {
+        const std::int64_t length = rowLength_[i];
+        std::int64_t own = length;
+        while (own > 0 && partner[own - 1] >= chunkEnd)
+          --own;
+        if (own > 0) write(i, own, inside);
+        if (own < length) write(i, length - own, crossing);
+        inside += own;
+        crossing += length - own;
         if ((i + 1) % group == 0 || i + 1 == block.lastGrain) groupEnd_[i / group] = inside;
       }
     }
@@ -321,9 +318,8 @@ std::int64_t PairList::imageKey(std::int64_t p, const GrainStore& grains) const 
 
 std::size_t PairList::bytes() const {
   std::size_t total = now_.bytes() + past_.bytes() + output_.capacity() * sizeof(Quad) +
-                      groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() + columns_.bytes() +
-                      (rowLength_.capacity() + wrapped_.capacity()) * sizeof(std::int32_t) +
-                      filled_.capacity();
+                      groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() +
+                      rowLength_.capacity() * sizeof(std::int32_t) + filled_.capacity();
   for (const Block& block : blocks_)
     total += block.rows.bytes();
   return total;

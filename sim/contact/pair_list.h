@@ -118,8 +118,8 @@ private:
   std::size_t placeOf(std::int64_t p, int k) const {
     return static_cast<std::size_t>(p / lane * lane * historySize_ + k * lane + p % lane);
   }
-  void wrap(GrainStore& grains, Parallel& parallel);
   void fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow);
+  void lendMemory(Parallel& parallel);
   void cut(std::int64_t grains);
   void search(Parallel& parallel);
   void layOut();
@@ -131,7 +131,7 @@ private:
   bool periodic_ = false;
   int historySize_, outputQuads_;
   bool keepsLive_;
-  PairListing now_, past_; ///< past_: the listing before, while histories are carried
+  PairListing now_, past_; ///< past_: the listing before, while histories are carried, but for the histories
   std::int64_t size_ = 0;
   std::vector<Quad> output_;
   Range crossing_;
@@ -141,9 +141,10 @@ private:
 
   // Of use during a build alone; kept because asking for memory anew costs more than the search.
   CellGrid grid_;
-  GrainColumns columns_;
+  GrainColumns columns_;          ///< in output_, which nobody reads during a build
+  double* pastHistory_ = nullptr; ///< likewise
   std::vector<Block> blocks_;
-  std::vector<std::int32_t> rowLength_, wrapped_;
+  std::vector<std::int32_t> rowLength_;
   std::vector<std::uint8_t> filled_;
 };
 

@@ -37,9 +37,17 @@ Window window(const CellGrid::Level& here, const CellGrid::Level& there, int at,
 
 /// Orders a row by (partner, code).
 void sortRow(std::int32_t* partner, std::uint8_t* code, std::int64_t size) {
-  std::vector<std::int64_t> row(size);
+  const auto key = [&](std::int64_t k) {
+    return static_cast<std::int64_t>(partner[k]) << 8 | (code ? code[k] : 0);
+  };
+  bool sorted = true;
+  for (std::int64_t k = 1; k < size; ++k)
+    sorted &= key(k - 1) < key(k);
+  if (sorted) return;
+  thread_local std::vector<std::int64_t> row;
+  row.resize(static_cast<std::size_t>(size));
   for (std::int64_t k = 0; k < size; ++k)
-    row[k] = static_cast<std::int64_t>(partner[k]) << 8 | (code ? code[k] : 0);
+    row[k] = key(k);
   std::sort(row.begin(), row.end());
   for (std::int64_t k = 0; k < size; ++k) {
     partner[k] = static_cast<std::int32_t>(row[k] >> 8);
@@ -49,29 +57,31 @@ void sortRow(std::int32_t* partner, std::uint8_t* code, std::int64_t size) {
 
 } // namespace
 
-void GrainColumns::resize(std::size_t n) {
-  for (auto* column : {&x, &y, &z, &reach})
-    column->resize(n + CellSearch::readAhead);
-}
-
 /// Cells one above the other on some level, in one image along x and y.
 struct PairSearch::Column {
   std::int32_t firstCell;
-  int level, imageX, imageY;
+  int level;
+  int code; ///< of the image with no shift along z; shifts along z add to it
 };
 
 struct PairSearch::Scratch {
   std::vector<Column> columns;
-  std::vector<Stretch> stretches;
+  std::vector<Stretch> stretches; ///< longer than `count`
+  int count = 0;
+  std::int64_t most = 0;     ///< grains in all stretches
+  std::int32_t furthest = 0; ///< end of the last one
+  bool shifted = false;      ///< some stretch is seen in another image
 };
 
 PairSearch::PairSearch(const CellGrid& grid, const ImageCodes& codes, const GrainColumns& columns,
                        KernelWidth width)
     : grid_(grid), codes_(codes), columns_(columns), search_(cellSearcher(width)),
       imaged_(codes.image.size() > 1) {
+  // A finer cell can see one cell more of a coarser level.
+  const int beyond = grid.levels().size() > 1 ? 3 : 1;
   for (const CellGrid::Level& level : grid.levels())
     for (int k = 0; k < 3; ++k)
-      thin_ = thin_ || (grid.periodic()[k] && level.count[k] < 2 * level.look[k] + 3);
+      thin_ = thin_ || (grid.periodic()[k] && level.count[k] < 2 * level.look[k] + beyond);
 }
 
 void PairSearch::openColumn(std::size_t home, int x, int y, Scratch& scratch) const {
@@ -91,7 +101,7 @@ void PairSearch::openColumn(std::size_t home, int x, int y, Scratch& scratch) co
             there.firstCell +
             ((u - ix * there.count[0]) * there.count[1] + v - iy * there.count[1]) * there.count[2];
         // Each pair once: earlier columns hold earlier grains only.
-        if (column >= own) scratch.columns.push_back({column, static_cast<int>(l), ix, iy});
+        if (column >= own) scratch.columns.push_back({column, static_cast<int>(l), codes_.of(ix, iy, 0)});
       }
   }
   if (imaged_)
@@ -100,31 +110,48 @@ void PairSearch::openColumn(std::size_t home, int x, int y, Scratch& scratch) co
 }
 
 void PairSearch::openCell(std::size_t home, int z, std::int32_t firstGrain, Scratch& scratch) const {
-  scratch.stretches.clear();
   const std::int32_t* start = grid_.start().data();
   const bool periodic = grid_.periodic()[2];
-  int level = -1;
-  Window w{};
-  for (const Column& column : scratch.columns) {
-    const CellGrid::Level& there = grid_.levels()[column.level];
-    if (column.level != level) {
-      level = column.level;
-      w = window(grid_.levels()[home], there, z, 2, periodic);
+  const std::size_t columns = scratch.columns.size();
+  const std::size_t room = columns * (2 * codes_.reach[2] + 1) + 1;
+  if (scratch.stretches.size() < room) scratch.stretches.resize(room);
+  Stretch* to = scratch.stretches.data();
+  scratch.most = scratch.furthest = 0;
+  int shifted = 0;
+  const auto add = [&](std::int32_t begin, std::int32_t end, int code) {
+    *to = {begin, end, code};
+    const bool holdsPartners = end > begin && end > firstGrain;
+    to += holdsPartners;
+    scratch.most += holdsPartners ? end - begin : 0;
+    scratch.furthest = std::max(scratch.furthest, end);
+    shifted |= code ^ codes_.center();
+  };
+  for (std::size_t c = 0; c < columns;) {
+    const int level = scratch.columns[c].level;
+    const CellGrid::Level& there = grid_.levels()[level];
+    const Window w = window(grid_.levels()[home], there, z, 2, periodic);
+    if (w.low >= 0 && w.high < there.count[2]) {
+      for (; c < columns && scratch.columns[c].level == level; ++c) {
+        const std::int32_t* cells = start + scratch.columns[c].firstCell;
+        add(cells[w.low], cells[w.high + 1], scratch.columns[c].code);
+      }
+      continue;
     }
-    const std::size_t before = scratch.stretches.size();
-    for (int from = w.low; from <= w.high;) {
-      const int image = periodic ? floorDivide(from, there.count[2]) : 0;
-      const int to = std::min(w.high, (image + 1) * there.count[2] - 1);
-      const std::int32_t begin = start[column.firstCell + from - image * there.count[2]];
-      const std::int32_t end = start[column.firstCell + to - image * there.count[2] + 1];
-      if (end > begin && end > firstGrain && codes_.holds(0, 0, image))
-        scratch.stretches.push_back({begin, end, codes_.of(column.imageX, column.imageY, image)});
-      from = to + 1;
+    for (; c < columns && scratch.columns[c].level == level; ++c) {
+      Stretch* const before = to;
+      const std::int32_t* cells = start + scratch.columns[c].firstCell;
+      for (int from = w.low; from <= w.high;) {
+        const int image = floorDivide(from, there.count[2]), first = image * there.count[2];
+        const int high = std::min(w.high, first + there.count[2] - 1);
+        if (codes_.holds(0, 0, image))
+          add(cells[from - first], cells[high - first + 1], scratch.columns[c].code + image);
+        from = high + 1;
+      }
+      std::sort(before, to, [](const Stretch& s, const Stretch& t) { return s.begin < t.begin; });
     }
-    if (scratch.stretches.size() > before + 1)
-      std::sort(scratch.stretches.begin() + static_cast<std::ptrdiff_t>(before), scratch.stretches.end(),
-                [](const Stretch& s, const Stretch& t) { return s.begin < t.begin; });
   }
+  scratch.count = static_cast<int>(to - scratch.stretches.data());
+  scratch.shifted = shifted != 0;
 }
 
 /// Calls visit(scratch, first, last) for the grains of each cell among first .. last - 1.
@@ -158,36 +185,28 @@ template <class Visit> void PairSearch::eachCell(std::int64_t first, std::int64_
 void PairSearch::rows(std::int64_t first, std::int64_t last, std::int64_t crossingFrom, std::int32_t* count,
                       FoundRows& found) const {
   found.size = found.crossing = 0;
-  CellSearch task{columns_.x.data(),
-                  columns_.y.data(),
-                  columns_.z.data(),
-                  columns_.reach.data(),
-                  codes_.shift.data(),
-                  codes_.center(),
-                  nullptr,
-                  0,
-                  0,
-                  0};
+  CellSearch task{};
+  task.x = columns_.x;
+  task.y = columns_.y;
+  task.z = columns_.z;
+  task.reach = columns_.reach;
+  task.shift = codes_.shift.data();
+  task.center = codes_.center();
   eachCell(first, last, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
-    std::int64_t most = 0;
-    std::int32_t furthest = 0;
-    for (const Stretch& s : scratch.stretches) {
-      most += s.end - s.begin;
-      furthest = std::max(furthest, s.end);
-    }
     const std::size_t room =
-        static_cast<std::size_t>(found.size + most * (end - begin)) + CellSearch::writeAhead;
-    if (found.partner.size() < room) found.partner.resize(room + room / 2);
+        static_cast<std::size_t>(found.size + scratch.most * (end - begin)) + CellSearch::writeAhead;
+    if (found.partner.size() < room) found.partner.resize(room + room / 4);
     if (imaged_ && found.code.size() < found.partner.size()) found.code.resize(found.partner.size());
     task.stretches = scratch.stretches.data();
-    task.stretchCount = static_cast<int>(scratch.stretches.size());
+    task.stretchCount = scratch.count;
+    task.shifted = scratch.shifted;
     task.first = begin;
     task.last = end;
     std::int32_t* partner = found.partner.data() + found.size;
     std::uint8_t* code = imaged_ ? found.code.data() + found.size : nullptr;
     std::int32_t* lengths = count + (begin - first);
     found.size += search_(task, partner, code, lengths);
-    if (!thin_ && furthest <= crossingFrom) return;
+    if (!thin_ && scratch.furthest <= crossingFrom) return;
     for (std::int32_t i = begin; i < end; ++i) {
       const std::int32_t length = *lengths++;
       if (thin_) sortRow(partner, code, length);
@@ -201,12 +220,13 @@ void PairSearch::rows(std::int64_t first, std::int64_t last, std::int64_t crossi
 
 std::int64_t PairSearch::distanceTests() const {
   std::int64_t tests = 0;
-  eachCell(0, static_cast<std::int64_t>(columns_.x.size()) - CellSearch::readAhead,
-           [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
-             for (std::int32_t i = begin; i < end; ++i)
-               for (const Stretch& s : scratch.stretches)
-                 tests += std::max(0, s.end - std::max(s.begin, s.code > codes_.center() ? i : i + 1));
-           });
+  eachCell(0, columns_.grains, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t i = begin; i < end; ++i)
+      for (int k = 0; k < scratch.count; ++k) {
+        const Stretch& s = scratch.stretches[k];
+        tests += std::max(0, s.end - std::max(s.begin, s.code > codes_.center() ? i : i + 1));
+      }
+  });
   return tests;
 }
 

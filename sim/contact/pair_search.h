@@ -11,11 +11,21 @@
 
 namespace sandglass {
 
-/// Positions and reaches (radius + allowed motion + range / 2) in storage order, as columns for vector loops.
+/// Positions and reaches (radius + allowed motion + range / 2) in storage order, as columns for vector loops,
+/// in memory that somebody else lends.
 struct GrainColumns {
-  std::vector<double> x, y, z, reach;
-  void resize(std::size_t n);
-  std::size_t bytes() const { return 4 * sizeof(double) * x.capacity(); }
+  std::int64_t grains = 0;
+  double *x = nullptr, *y = nullptr, *z = nullptr, *reach = nullptr;
+
+  static std::size_t numbers(std::int64_t grains) { return 4 * length(grains); } ///< doubles needed
+  GrainColumns() = default;
+  GrainColumns(std::int64_t count, double* memory)
+      : grains(count), x(memory), y(x + length(count)), z(y + length(count)), reach(z + length(count)) {}
+
+private:
+  static std::size_t length(std::int64_t grains) {
+    return static_cast<std::size_t>(grains) + CellSearch::readAhead;
+  }
 };
 
 /// What a block of rows holds, row behind row.

@@ -28,7 +28,15 @@ std::int64_t searchCellPlain(const CellSearch& cell, std::int32_t* partner, std:
   return found;
 }
 
-CellSearcher cellSearcher(KernelWidth) {
+CellSearcher cellSearcher(KernelWidth width) {
+  switch (width) {
+  case KernelWidth::avx512:
+    return searchCellAvx512;
+  case KernelWidth::avx2:
+    return searchCellAvx2;
+  case KernelWidth::plain:
+    break;
+  }
   return searchCellPlain;
 }
 

@@ -19,6 +19,7 @@ struct CellSearch {
   const double *x, *y, *z, *reach;
   const Quad* shift; ///< of each image code
   int center;        ///< the code of no shift
+  bool shifted;      ///< there are other codes among the stretches
   const Stretch* stretches;
   int stretchCount;
   std::int32_t first, last; ///< the grains of the cell
@@ -35,6 +36,10 @@ using CellSearcher = std::int64_t (*)(const CellSearch& cell, std::int32_t* part
 
 std::int64_t searchCellPlain(const CellSearch& cell, std::int32_t* partner, std::uint8_t* code,
                              std::int32_t* count);
+std::int64_t searchCellAvx2(const CellSearch& cell, std::int32_t* partner, std::uint8_t* code,
+                            std::int32_t* count);
+std::int64_t searchCellAvx512(const CellSearch& cell, std::int32_t* partner, std::uint8_t* code,
+                              std::int32_t* count);
 
 CellSearcher cellSearcher(KernelWidth width);
 

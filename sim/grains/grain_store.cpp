@@ -1,5 +1,8 @@
 #include "sim/grains/grain_store.h"
 
+#include <algorithm>
+#include <type_traits>
+
 namespace sandglass {
 
 namespace {
@@ -7,17 +10,51 @@ namespace {
 constexpr std::size_t phantoms = 2;
 constexpr std::int64_t grainsPerPiece = 4096;
 
+/// Moves values through memory that is there already: asking the system for as much anew takes longer.
+/// `extra` values at the end keep their meaning.
 template <class T>
 void permute(std::vector<T>& values, const std::vector<std::int32_t>& order, Parallel& parallel,
-             std::size_t extra = 0, std::size_t stride = 1) {
-  std::vector<T> moved((order.size() + extra) * stride);
-  parallel.forRange(static_cast<std::int64_t>(order.size()), grainsPerPiece,
-                    [&](std::int64_t first, std::int64_t last) {
-                      for (std::int64_t i = first; i < last; ++i)
-                        for (std::size_t k = 0; k < stride; ++k)
-                          moved[i * stride + k] = values[order[i] * stride + k];
-                    });
-  values = std::move(moved);
+             std::vector<Quad>& scratch, std::size_t extra = 0, std::size_t stride = 1) {
+  const std::size_t count = order.size() * stride,
+                    quads = (count * sizeof(T) + sizeof(Quad) - 1) / sizeof(Quad);
+  if (scratch.size() < quads) scratch.resize(quads);
+  T* const moved = reinterpret_cast<T*>(scratch.data());
+  const auto n = static_cast<std::int64_t>(order.size());
+  const auto copy = [&](auto strideNow) {
+    parallel.forRange(n, grainsPerPiece, [&, from = values.data()](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+        for (std::size_t k = 0; k < strideNow; ++k)
+          moved[i * strideNow + k] = from[order[i] * strideNow + k];
+    });
+  };
+  if (stride == 3)
+    copy(std::integral_constant<std::size_t, 3>{});
+  else if (stride == 2)
+    copy(std::integral_constant<std::size_t, 2>{});
+  else
+    copy(std::integral_constant<std::size_t, 1>{});
+  values.resize(count + extra * stride);
+  parallel.forRange(n, grainsPerPiece, [&, to = values.data()](std::int64_t first, std::int64_t last) {
+    std::copy(moved + first * stride, moved + last * stride, to + first * stride);
+  });
+}
+
+/// The same for how far grains may move; positions at listing time are about to be written anew.
+void permuteAllowances(std::vector<Quad>& listed, const std::vector<std::int32_t>& order, Parallel& parallel,
+                       std::vector<Quad>& scratch) {
+  const std::size_t quads = order.size() / 4 + 1;
+  if (scratch.size() < quads) scratch.resize(quads);
+  double* const moved = &scratch[0].x;
+  const auto n = static_cast<std::int64_t>(order.size());
+  parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      moved[i] = listed[order[i]].w;
+  });
+  listed.resize(order.size());
+  parallel.forRange(n, grainsPerPiece, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      listed[i].w = moved[i];
+  });
 }
 
 } // namespace
@@ -49,15 +86,16 @@ void GrainStore::setRecords(std::vector<Quad> records) {
   placePhantoms();
 }
 
-void GrainStore::reorder(const std::vector<std::int32_t>& order, Parallel& parallel) {
-  permute(records_, order, parallel, phantoms, quadsPerRecord());
-  permute(listed, order, parallel);
-  permute(id, order, parallel);
-  permute(species, order, parallel);
-  permute(material, order, parallel, phantoms);
-  if (imaged) permute(image, order, parallel);
+void GrainStore::reorder(const std::vector<std::int32_t>& order, Parallel& parallel,
+                         std::vector<Quad>& scratch) {
+  permute(records_, order, parallel, scratch, phantoms, quadsPerRecord());
+  permuteAllowances(listed, order, parallel, scratch);
+  permute(id, order, parallel, scratch);
+  permute(species, order, parallel, scratch);
+  permute(material, order, parallel, scratch, phantoms);
+  if (imaged) permute(image, order, parallel, scratch);
   for (auto& values : quantities)
-    permute(values, order, parallel);
+    permute(values, order, parallel, scratch);
   placePhantoms();
 }
 

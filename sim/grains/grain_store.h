@@ -71,7 +71,9 @@ public:
   void setRecords(std::vector<Quad> records);
 
   /// Keeps the grains listed in `order` (storage indices), in that order.
-  void reorder(const std::vector<std::int32_t>& order, Parallel& parallel);
+  /// Of `listed`, only w goes with a grain. `scratch` is memory to work in, made larger if need be; what it
+  /// held is lost.
+  void reorder(const std::vector<std::int32_t>& order, Parallel& parallel, std::vector<Quad>& scratch);
   void resize(std::size_t n);
   std::size_t bytesPerGrain() const;
 

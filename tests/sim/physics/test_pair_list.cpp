@@ -18,9 +18,8 @@ namespace {
 
 using Key = std::tuple<std::int64_t, std::int64_t, int, int, int>;
 
-GrainStore randomGrains(int n, const Domain& domain, double smallest, double largest, double allowed,
-                        std::uint64_t seed = 5) {
-  GrainStore store;
+void fillAtRandom(GrainStore& store, int n, const Domain& domain, double smallest, double largest,
+                  double allowed, std::uint64_t seed = 5) {
   store.imaged = domain.periodic[0] || domain.periodic[1] || domain.periodic[2];
   store.resize(n);
   for (int i = 0; i < n; ++i) {
@@ -33,7 +32,6 @@ GrainStore randomGrains(int n, const Domain& domain, double smallest, double lar
     store.listed[i].w = allowed * i / n;                     // unequal allowances
     store.id[i] = (static_cast<std::int64_t>(i) * 7919) % n; // ids in another order than storage
   }
-  return store;
 }
 
 std::set<Key> bruteForce(const GrainStore& g, const Domain& d, double margin) {
@@ -178,7 +176,7 @@ void checkLayout(PairList& list, const GrainStore& store) {
   }
 }
 
-void compare(const Domain& domain, GrainStore store, double margin) {
+void compare(const Domain& domain, GrainStore& store, double margin) {
   PairList list(domain, 0, 2, false);
   Parallel parallel(2);
   list.build(store, margin, parallel);
@@ -189,7 +187,9 @@ void compare(const Domain& domain, GrainStore store, double margin) {
 }
 
 void compare(const Domain& domain, int n, double smallest, double largest, double margin) {
-  compare(domain, randomGrains(n, domain, smallest, largest, 0.02), margin);
+  GrainStore store;
+  fillAtRandom(store, n, domain, smallest, largest, 0.02);
+  compare(domain, store, margin);
 }
 
 } // namespace
@@ -221,12 +221,13 @@ TEST_CASE("sizes 1:20 in one list") {
 TEST_CASE("sizes 1:50 in one list of several levels") {
   for (const bool periodic : {false, true}) {
     const Domain domain{Vec3(0, 0, 0), Vec3(1, 1, 1), {periodic, periodic, periodic}};
-    GrainStore store = randomGrains(4500, domain, 0.005, 0.006, 0.0);
+    GrainStore store;
+    fillAtRandom(store, 4500, domain, 0.005, 0.006, 0.0);
     for (int i = 0; i < 5; ++i)
       store.place[i * 900].w = 0.25 - 0.04 * i;
     for (int i = 0; i < 40; ++i)
       store.place[i * 100 + 7].w = 0.03 + 0.001 * i;
-    compare(domain, std::move(store), 0.001);
+    compare(domain, store, 0.001);
   }
 }
 
@@ -241,7 +242,8 @@ TEST_CASE("no grain, one grain, one cell") {
 
 TEST_CASE("a periodic box too thin for its images is refused") {
   const Domain domain{Vec3(0, 0, 0), Vec3(0.05, 0.05, 0.05), {true, true, true}};
-  GrainStore store = randomGrains(3, domain, 0.2, 0.2, 0.0);
+  GrainStore store;
+  fillAtRandom(store, 3, domain, 0.2, 0.2, 0.0);
   PairList list(domain, 0, 1, false);
   Parallel parallel(1);
   CHECK_THROWS_WITH(list.build(store, 0.0, parallel), Catch::Contains("at most 255 are possible"));
@@ -249,7 +251,8 @@ TEST_CASE("a periodic box too thin for its images is refused") {
 
 TEST_CASE("grains far apart do not blow up the grid") {
   Domain domain{Vec3(-1e6, -1e6, -1e6), Vec3(1e6, 1e6, 1e6), {false, false, false}};
-  GrainStore store = randomGrains(50, domain, 1e-3, 1e-3, 1e-4);
+  GrainStore store;
+  fillAtRandom(store, 50, domain, 1e-3, 1e-3, 1e-4);
   PairList list(domain, 0, 3, false);
   Parallel parallel(1);
   list.build(store, 1e-4, parallel);
@@ -260,7 +263,8 @@ TEST_CASE("grains far apart do not blow up the grid") {
 TEST_CASE(
     "allowances that are shared within groups of grains are respected, and listing again changes nothing") {
   const Domain domain{Vec3(0, 0, 0), Vec3(1, 1, 1), {false, true, false}};
-  GrainStore store = randomGrains(3000, domain, 0.004, 0.04, 0.02);
+  GrainStore store;
+  fillAtRandom(store, 3000, domain, 0.004, 0.04, 0.02);
   PairList list(domain, 0, 1, false);
   Parallel parallel(3);
   list.build(store, 0.001, parallel, {}, [&](std::int64_t first, std::int64_t last) {
@@ -283,4 +287,223 @@ TEST_CASE(
     same = same && list.pairs()[p].a == again.pairs()[p].a && list.pairs()[p].b == again.pairs()[p].b;
   CHECK(same);
   CHECK(list.shiftOf() == again.shiftOf());
+}
+
+namespace {
+
+using History = std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>, std::vector<double>>;
+
+/// Histories and live flags by key.
+History historiesOf(PairList& list, const GrainStore& store) {
+  History all;
+  for (std::int64_t p = 0; p < list.entries(); ++p) {
+    if (list.isPadding(p)) continue;
+    auto& values = all[{store.id[list.pairs()[p].a], store.id[list.pairs()[p].b], list.imageKey(p, store)}];
+    for (int k = 0; k < list.historySize(); ++k)
+      values.push_back(list.historyOf(p, k));
+    values.push_back(list.live() ? list.live()[p] : 0);
+  }
+  return all;
+}
+
+/// Moves grains at random and lists them again, several times: pairs that stay keep what they had, others
+/// start from nothing.
+void checkCarrying(const Domain& domain, int n, double smallest, double largest, double step, bool drops) {
+  GrainStore store;
+  fillAtRandom(store, n, domain, smallest, largest, 0.0);
+  PairList list(domain, 3, 2, true);
+  Parallel parallel(3);
+  list.build(store, 0.002, parallel);
+  std::int64_t kept = 0, fresh = 0, wrapped = 0;
+  for (int round = 0; round < 6; ++round) {
+    for (std::int64_t p = 0; p < list.entries(); ++p) {
+      if (list.isPadding(p)) continue;
+      for (int k = 0; k < 3; ++k)
+        list.setHistory(p, k, 1.0 + round + 3.0 * p + k);
+      list.live()[p] = p % 2;
+    }
+    const History before = historiesOf(list, store);
+    for (std::size_t i = 0; i < store.size(); ++i) {
+      RandomStream random(6 + round, RandomPurpose::test, store.id[i]);
+      store.place[i].x += random.uniform(-step, step);
+      store.place[i].y += random.uniform(-step, step);
+      store.place[i].z += random.uniform(-step, step);
+    }
+    std::vector<std::uint8_t> drop;
+    if (drops) {
+      drop.assign(store.size(), 0);
+      for (std::size_t i = 0; i < store.size(); ++i)
+        drop[i] = store.id[i] % 7 == round;
+      const std::size_t at = store.size(); // and some new ones
+      store.resize(at + 20);
+      drop.resize(at + 20, 0);
+      for (std::size_t i = at; i < store.size(); ++i) {
+        RandomStream random(60 + round, RandomPurpose::test, i);
+        store.place[i] = {random.uniform(domain.lower.x(), domain.upper.x()),
+                          random.uniform(domain.lower.y(), domain.upper.y()),
+                          random.uniform(domain.lower.z(), domain.upper.z()), largest};
+        store.motion[i].w = 1.0;
+        store.listed[i].w = 0.0;
+        store.id[i] = 7'000'000 + 1000 * round + static_cast<std::int64_t>(i - at);
+      }
+    }
+    std::map<std::int64_t, std::array<std::int32_t, 3>> counters;
+    if (store.imaged)
+      for (std::size_t i = 0; i < store.size(); ++i)
+        counters[store.id[i]] = store.image[i];
+    list.build(store, 0.002, parallel, drop);
+    checkLayout(list, store);
+    if (store.imaged)
+      for (std::size_t i = 0; i < store.size(); ++i)
+        wrapped += counters[store.id[i]] != store.image[i];
+    const History after = historiesOf(list, store);
+    bool right = true;
+    for (const auto& [key, values] : after) {
+      const auto old = before.find(key);
+      right = right && values == (old == before.end() ? std::vector<double>(4, 0.0) : old->second);
+      ++(old == before.end() ? fresh : kept);
+    }
+    CHECK(right);
+  }
+  CHECK(kept > 6 * n / 4);
+  CHECK(fresh > 0);
+  if (store.imaged) CHECK(wrapped > 0);
+}
+
+} // namespace
+
+TEST_CASE("histories stay with their pairs while grains move, wrap, leave and arrive") {
+  for (const bool drops : {false, true})
+    for (const bool periodic : {false, true}) {
+      const Domain domain{Vec3(0, 0, 0), Vec3(1, 0.8, 0.6), {periodic, periodic, false}};
+      checkCarrying(domain, 5000, 0.02, 0.03, 0.004, drops);
+    }
+  const Domain thin{Vec3(0, 0, 0), Vec3(1, 0.11, 0.09), {false, true, true}}; // several images of a partner
+  checkCarrying(thin, 100, 0.03, 0.04, 0.01, false);
+  checkCarrying(thin, 100, 0.03, 0.04, 0.01, true);
+}
+
+TEST_CASE("histories of large grains with more contacts than slots are carried") {
+  const Domain domain{Vec3(0, 0, 0), Vec3(1, 1, 1), {true, false, true}};
+  checkCarrying(domain, 3000, 0.01, 0.1, 0.004, false); // some 50 contacts a grain: both sides overflow
+}
+
+TEST_CASE("the list is the same for any number of threads and any width of instructions") {
+  for (const double largest : {0.013, 0.1}) {
+    const Domain domain{Vec3(0, 0, 0), Vec3(1, 1, 1), {true, false, true}};
+    struct Result {
+      std::vector<std::int64_t> ids;
+      std::vector<std::int32_t> numbers;
+      std::vector<double> history;
+      bool operator==(const Result&) const = default;
+    };
+    std::vector<Result> results;
+    for (const char* kernel : {"plain", "avx2", "avx512"})
+      for (const int threads : {1, 2, 3, 7}) {
+        setenv("SANDGLASS_KERNEL", kernel, 1);
+        GrainStore store;
+        fillAtRandom(store, 40000 / (largest > 0.05 ? 4 : 1), domain, 0.012, largest, 0.001);
+        PairList list(domain, 2, 1, false);
+        Parallel parallel(threads);
+        list.build(store, 0.001, parallel);
+        for (std::int64_t p = 0; p < list.size(); ++p)
+          if (!list.isPadding(p)) list.setHistory(p, 1, 1.0 + static_cast<double>(p));
+        for (std::size_t i = 0; i < store.size(); ++i)
+          store.place[i].x += 0.003 * static_cast<double>(store.id[i] % 17 - 8) / 8.0;
+        list.build(store, 0.001, parallel);
+        Result r{store.id, {}, list.historyArray()};
+        for (const auto& pair : list.pairs())
+          r.numbers.insert(r.numbers.end(), {pair.a, pair.b});
+        r.numbers.insert(r.numbers.end(), list.shiftOf().begin(), list.shiftOf().end());
+        r.numbers.insert(r.numbers.end(), list.slots(0), list.slots(static_cast<std::int64_t>(store.size())));
+        for (const auto& extra : list.extras())
+          r.numbers.insert(r.numbers.end(), {extra.grain, extra.entry});
+        for (std::int64_t g = 0; g * PairList::group < static_cast<std::int64_t>(store.size()); ++g)
+          r.numbers.push_back(static_cast<std::int32_t>(list.groupEnd(g)));
+        results.push_back(std::move(r));
+      }
+    unsetenv("SANDGLASS_KERNEL");
+    for (const Result& r : results)
+      CHECK((r == results.front()));
+  }
+}
+
+namespace {
+
+/// Distance tests of the search over all grains, per grain and mean occupant of a cell.
+double testsPerOccupant(const Domain& domain, GrainStore& store, double range) {
+  Parallel parallel(2);
+  CellGrid grid;
+  std::vector<Quad> scratch;
+  grid.sort(store, domain, range, parallel, {}, scratch);
+  store.reorder(grid.order(), parallel, scratch);
+  const double n = static_cast<double>(store.size());
+  GrainColumns columns;
+  columns.grains = static_cast<std::int64_t>(store.size());
+  const ImageCodes codes(domain, 2.0 * grid.largestReach());
+  const PairSearch search(grid, codes, columns, KernelWidth::plain);
+  const auto& count = grid.levels().front().count;
+  REQUIRE(grid.levels().size() == 1);
+  // As many cells as cut-offs fit along each side.
+  const double cutoff = 2.0 * grid.largestReach();
+  for (int k = 0; k < 3; ++k)
+    CHECK(count[k] == static_cast<int>((domain.upper[k] - domain.lower[k]) / cutoff));
+  return static_cast<double>(search.distanceTests()) / (n * n / (1.0 * count[0] * count[1] * count[2]));
+}
+
+} // namespace
+
+TEST_CASE("the search measures 13 partners per grain and occupant of a cell") {
+  // Half of the 26 cells around a grain's own (Hockney and Eastwood), and half of its own.
+  const Domain cube{Vec3(0, 0, 0), Vec3(1, 1, 1), {true, true, true}};
+  for (const int n : {1000, 10000, 100000}) {
+    GrainStore store;
+    const double radius = 0.5 * 0.999 / std::floor(std::cbrt(n / 2.0)); // two grains a cell
+    fillAtRandom(store, n, cube, radius, radius, 0.0);
+    CHECK(testsPerOccupant(cube, store, 0.0) == Approx(13.0).epsilon(0.15));
+  }
+}
+
+TEST_CASE("grains in a cone are found as by brute force") {
+  // A grid over the cone's bounding box: most cells are empty, and occupied ones hold what they hold in a
+  // cube.
+  const Domain box{Vec3(0, 0, 0), Vec3(1, 1, 1), {false, false, false}};
+  for (const int n : {1000, 5000}) {
+    GrainStore store;
+    const double radius = 0.5 / std::floor(std::cbrt(n / 2.0));
+    fillAtRandom(store, n, box, radius, radius, 0.0);
+    for (std::size_t i = 0; i < store.size(); ++i) { // into a cone with its tip at the bottom
+      Quad& q = store.place[i];
+      q.x = 0.5 + (q.x - 0.5) * q.z;
+      q.y = 0.5 + (q.y - 0.5) * q.z;
+    }
+    compare(box, store, 0.0);
+  }
+}
+
+TEST_CASE("a sorted grid chains each grain to exactly one cell") {
+  const Domain domain{Vec3(0, 0, 0), Vec3(1, 1, 1), {true, false, true}};
+  GrainStore store;
+  fillAtRandom(store, 9000, domain, 0.004, 0.005, 0.001);
+  for (int i = 0; i < 5; ++i)
+    store.place[1000 * i].w = 0.2;
+  Parallel parallel(3);
+  CellGrid grid;
+  std::vector<Quad> scratch;
+  grid.sort(store, domain, 0.001, parallel, {}, scratch);
+  std::vector<std::int32_t> order = grid.order();
+  CHECK(grid.levels().size() > 1);
+  REQUIRE(order.size() == store.size());
+  REQUIRE(grid.start().front() == 0);
+  REQUIRE(grid.start().back() == static_cast<std::int32_t>(order.size()));
+  bool ascending = true; // grains of one cell stand in the order they had
+  for (std::size_t c = 0; c + 1 < grid.start().size(); ++c) {
+    REQUIRE(grid.start()[c] <= grid.start()[c + 1]);
+    for (std::int32_t k = grid.start()[c] + 1; k < grid.start()[c + 1]; ++k)
+      ascending = ascending && order[k - 1] < order[k];
+  }
+  CHECK(ascending);
+  std::sort(order.begin(), order.end());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    REQUIRE(order[k] == static_cast<std::int32_t>(k));
 }
