@@ -212,6 +212,8 @@ analysis::Replicate resultsOf(const Job& job, analysis::Units& units) {
           : kind == "energies"           ? "J"
           : value.starts_with("force.")  ? "N"
           : value.starts_with("torque.") ? "N m"
+          : value == "power"             ? "W"
+          : value.ends_with("work")      ? "J"
                                          : "");
     }
     if (kind != "flow_rate") continue;

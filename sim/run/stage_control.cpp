@@ -29,10 +29,12 @@ void StageControl::begin() {
     solver_.removeWall(wall);
   solver_.setDrag(stage.drag.value_or(0));
   solver_.beginStage(stage.name);
+  solver_.advance(0); // forces without those walls: probes and frames of this step show them
   const double before = solver_.energies().total();
   const auto grains = placeGrains(scene_, stage.name, solver_.nextId(), solver_.present(), log_);
   if (!grains.empty()) {
     solver_.add(grains);
+    solver_.advance(0);
     watchdog_.entered(grains, solver_.energies().total() - before);
   }
   rain_ = makeRain(scene_, stage.name);
@@ -78,6 +80,7 @@ void StageControl::bringIn() {
     enter(rain_->due(time, solver_.nextId(), free));
   }
   enter(recycling_.due(solver_, scene_.stages[stage_].name));
+  solver_.advance(0); // forces on those that came; probes and frames of this step show them
 }
 
 void StageControl::look() {

@@ -49,7 +49,7 @@ public:
   /// A stage of the scene begins now; for walls whose motion waits for one.
   virtual void beginStage(const std::string& name) {}
 
-  /// Runs `steps` steps. Throws RunError when the state turned bad (NaN, escape, overlap); then the state is
+  /// Runs `steps` steps; 0 brings forces up to date after grains or walls have changed. Throws RunError when the state turned bad (NaN, escape, overlap); then the state is
   /// not to be used any more.
   virtual void advance(std::int64_t steps) = 0;
 

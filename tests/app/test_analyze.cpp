@@ -61,6 +61,24 @@ TEST_CASE("analyze does what the run allows and says what it leaves out", "[anal
   CHECK_THAT(content(out / "all" / "packing.csv"), Contains("\nheight [m],packing,packing error\n"));
 }
 
+TEST_CASE("contacts, residence times and an impact map of a run that has them", "[analyze]") {
+  const TemporaryFolder folder("analyze-contacts");
+  const std::string scene = (folder / "s.toml").string(), made = (folder / "r").string();
+  std::ofstream(scene) << smallHopper;
+  REQUIRE(program("run " + scene + " -o " + made +
+                  " --set output.contacts=true --set outlet.below.record=true --set "
+                  "stage.discharge.until.duration=90ms")
+              .code == 0);
+  const Result result = program("analyze " + made + " --contacts --residence --impact-map " + scene + " -o " +
+                                (folder / "out").string());
+  INFO(result.text);
+  CHECK(result.code == 0);
+  CHECK_THAT(result.text, Contains("overlaps with a grain: mean") && Contains("residence time: mean 0.") &&
+                              Contains("impacts of bead on bead restitution: 0.89"));
+  for (const char* name : {"overlaps", "contact_forces", "residence_times", "impact_map"})
+    CHECK(fs::exists(folder / "out" / (std::string(name) + ".csv")));
+}
+
 TEST_CASE("one analysis, CSV alone", "[analyze]") {
   const TemporaryFolder out("analyze-one");
   const Result result =
@@ -86,6 +104,10 @@ TEST_CASE("what analyze refuses, it refuses with a sentence", "[analyze]") {
       {"--discharge --range 0.5:0.1", "--range is '0.5:0.1', but must be two ascending shares"},
       {"--discharge --probe nosuch", "nosuch"},
       {"--beverloo", "at least two different outlets"},
+      {"--contacts", "has no contacts: set contacts = true"},
+      {"--residence", "there is no discharged.csv: give an outlet of the scene record = true"},
+      {"--heap", "but a heap angle needs 8 on each side"},
+      {"--impact-map nosuch.toml", "nosuch.toml: there is no such scene file"},
   };
   for (const auto& [options, sentence] : cases) {
     const Result result =

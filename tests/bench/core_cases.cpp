@@ -34,7 +34,7 @@ const Tile& tile(int across, int layers, bool quick) {
 CoreCase bed(const std::string& name, const Tile& t, int nx, int ny, double angle, bool friction,
              std::int64_t steps, bool peers) {
   const Beads beads{nx * t.side(), ny * t.side(), 2.0 * t.layers + 10, angle, 1, friction, true};
-  CoreCase c{name, beads.scene(), tiled(t.grains, t.side(), nx, ny), {}, steps, {}, {}, peers};
+  CoreCase c{name, beads.scene(), tiled(t.grains, t.side(), nx, ny), {}, steps, {}, {}};
   if (peers) {
     c.lammpsDeck = beads.lammpsDeck(look);
     c.liggghtsDeck = beads.liggghtsDeck(look);
@@ -56,8 +56,7 @@ CoreCase chute(bool quick, bool flows) {
 CoreCase dilute(bool quick) {
   Beads beads;
   const auto grains = gas(quick ? 16 : 32, 0.05, beads);
-  return {"dilute_gas", beads.scene(), grains, {}, quick ? look : 4 * look, beads.lammpsDeck(look),
-          {},           false};
+  return {"dilute_gas", beads.scene(), grains, {}, quick ? look : 4 * look, beads.lammpsDeck(look), {}};
 }
 
 /// Runs a scene's first stage and, where it has a gate, a while of the next.
@@ -70,7 +69,7 @@ CoreCase prepared(const std::string& name, const Scene& scene, std::int64_t sett
     for (const std::string& wall : scene.stages[1].removeWalls)
       solver.removeWall(wall);
   solver.advance(flow);
-  return {name, scene, {}, solver.save(), steps, {}, {}, false};
+  return {name, scene, {}, solver.save(), steps, {}, {}};
 }
 
 CoreCase conicalHopper(bool quick) {

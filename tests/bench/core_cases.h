@@ -18,7 +18,6 @@ struct CoreCase {
   Solver::State state;           ///< of a run that has come so far (walls removed, contacts with a past)
   std::int64_t steps = 0;
   std::string lammpsDeck, liggghtsDeck; ///< up to the `run` command; empty: they take no part
-  bool variants = false;                ///< other precisions and arithmetics are measured too
 };
 
 /// Step at which kinetic energies are compared.

@@ -243,6 +243,28 @@ TEST_CASE("a recycling hopper stopped at odd steps leaves the bits of one that r
   CHECK(lives > 0);
 }
 
+TEST_CASE("a wall is weighed at steps at which grains leave and come back", "[flow]") {
+  // Sampled each 20 steps of 20 us, where grains are taken out (each 50) and put back (each 20).
+  const Scene scene = parseScene(smallHopper, "small hopper",
+                                 {"outlet.below.recycle.lower=[\"-1.5 cm\", \"1 cm\", \"-0.4 cm\"]",
+                                  "outlet.below.recycle.upper=[\"1.5 cm\", \"7 cm\", \"0.4 cm\"]",
+                                  "probe.energy.kind=wall_force", "probe.energy.wall=hopper",
+                                  "probe.energy.interval=0.4 ms"});
+  RunOptions options;
+  options.threads = 1;
+  Run run(scene, options);
+  int samples = 0, without = 0;
+  run.onSample = [&](const ProbeSample& s) {
+    if (s.probe != "energy" || s.time < 0.05) return; // from then on the bed lies on the hopper
+    ++samples;
+    if (s.values.at("force.y") == 0) ++without;
+  };
+  run.execute();
+  CHECK(run.summary().flow.grainsRecycled > 20);
+  CHECK(samples > 200);
+  CHECK(without == 0);
+}
+
 TEST_CASE("rain without a number lasts as long as its stage, and lagging rain is told", "[flow]") {
   std::string text = ballisticText;
   const auto at = text.find("number = 10\n");

@@ -1,13 +1,12 @@
 // V15, V25: how far the steady range reaches, and the heap that stays behind on the flat floor.
 
-#include "analysis/statistics.h"
+#include "analysis/heap_angle.h"
 #include "tests/validate/hopper/cases.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace sandglass::validate {
 
@@ -79,56 +78,21 @@ void judgeCourse(const HopperRuns& runs, Report& report) {
   report.curves.push_back(curve);
 }
 
-struct Heap {
-  double left = 0, right = 0; ///< [deg]
-  analysis::Series tops;
-};
-
-/// Highest grain in bins one diameter wide on either side of the outlet, first and last bin left out, a line
-/// through the others.
-Heap heapOf(const HopperRun& run, const HopperBed& bed) {
-  Heap heap;
-  heap.tops.name = fmt::format("seed {}", run.seed);
-  std::vector<std::pair<double, double>> all;
-  for (const int side : {-1, 1}) {
-    const double ledge = 0.5 * (bed.width - bed.outlet);
-    const int bins = static_cast<int>(ledge / bed.diameter);
-    std::vector<double> top(bins, 0.0), x, y;
-    for (const Vec3& p : run.last->position) {
-      const double out = side * p.x() - 0.5 * bed.outlet;
-      const int k = static_cast<int>(out / bed.diameter);
-      if (out >= 0 && k < bins && p.y() > 0) top[k] = std::max(top[k], p.y());
-    }
-    for (int k = 1; k + 1 < bins; ++k) {
-      x.push_back((k + 0.5) * bed.diameter);
-      y.push_back(top[k]);
-      all.emplace_back(side * (0.5 * bed.outlet + x.back()), y.back());
-    }
-    const double angle = std::atan(analysis::fitLine(x, y).slope) * 180 / std::numbers::pi;
-    (side < 0 ? heap.left : heap.right) = angle;
-  }
-  std::sort(all.begin(), all.end());
-  for (const auto& [x, y] : all) {
-    heap.tops.x.push_back(100 * x);
-    heap.tops.y.push_back(100 * y);
-  }
-  return heap;
-}
-
 void judgeHeap(const HopperRuns& runs, Report& report) {
   const HopperBed bed = baseBed();
+  analysis::HeapOptions options;
+  options.slot.outlet = bed.outlet;
+  options.slot.width = bed.width;
+  options.diameter = bed.diameter;
   std::vector<double> angles;
   analysis::Curve curve;
-  curve.name = "V25";
-  curve.title = "V25: surface of the heap left on the flat floor";
-  curve.definition = "highest grain in bins one diameter wide";
-  curve.x = {"x", "cm"};
-  curve.y = {"height", "cm"};
   for (const HopperRun& r : runs.of(bed)) {
-    const Heap heap = heapOf(r, bed);
-    angles.push_back(0.5 * (heap.left + heap.right));
-    curve.series.push_back(heap.tops);
+    const analysis::Curve heap = analysis::heapAngle(*r.last, options);
+    angles.push_back(heap.numbers.at("angle"));
+    if (curve.series.empty()) curve = heap;
   }
+  curve.name = "V25";
+  curve.title = fmt::format("V25: heap left on the flat floor, seed {}", runs.seeds().front());
   const Mean mean = meanOf(angles);
   report.between(
       "V25 heap angle", "angle left on a flat floor [deg], both sides", mean.value, mean.halfWidth, 16.65,
