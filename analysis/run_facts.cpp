@@ -28,6 +28,9 @@ RunFacts factsOf(const Scene& scene) {
     if (wall.shape.kind == "wedge") {
       facts.shape = OutletShape::slot;
       facts.outlet = p.number("outlet");
+      const Vec3 up = p.vector("up").normalized(), along = p.vector("along");
+      facts.slot = Slot{p.vector("centre"), up.cross((along - along.dot(up) * up).normalized()), up,
+                        p.number("outlet"), p.number("width")};
       facts.slotDepth = periodAlong(scene.domain, p.vector("along"));
     } else if (wall.shape.kind == "cone_hopper") {
       facts.shape = OutletShape::circle;

@@ -10,12 +10,20 @@
 
 namespace sandglass::analysis {
 
+/// The outlet of a slot hopper.
+struct Slot {
+  Vec3 centre = Vec3::Zero();                      ///< middle of the outlet [m]
+  Vec3 across = Vec3::UnitX(), up = Vec3::UnitY(); ///< unit vectors
+  double outlet = 0, width = 0;                    ///< of the slot and of the bin [m]
+};
+
 struct RunFacts {
   std::optional<Vec3> up;           ///< minus the direction of gravity; absent without gravity
   double gravity = 0;               ///< [m/s^2]
   std::vector<std::string> gates;   ///< walls that a stage removes
   std::optional<OutletShape> shape; ///< of the outlet of a wedge or cone hopper
   double outlet = 0;                ///< its width or diameter [m]
+  std::optional<Slot> slot;         ///< of the first wedge
   std::optional<double> slotDepth;  ///< [m], of a slot along a periodic axis
   double grainDensity = 0;          ///< [kg/m^3], where all species have the same; else 0
   std::string flowProbe;            ///< name of the first flow_rate probe, or empty

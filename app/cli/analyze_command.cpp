@@ -2,18 +2,17 @@
 
 #include "analysis/beverloo.h"
 #include "analysis/discharge.h"
-#include "analysis/grain_sizes.h"
 #include "analysis/packing.h"
 #include "analysis/pair_correlation.h"
-#include "analysis/run_facts.h"
 #include "analysis/series_data.h"
+#include "app/cli/analyze_flow.h"
 #include "app/cli/analyze_options.h"
+#include "app/cli/analyze_source.h"
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "app/cli/result_files.h"
 #include "sim/base/error.h"
 #include "sim/io/frame_segment.h"
-#include "sim/io/segment_names.h"
 #include "sim/scene/units.h"
 
 #include <fmt/format.h>
@@ -29,54 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace analysis;
 
-/// One run or file with what its scene says.
-struct Source {
-  fs::path path;
-  std::string prefix; ///< of its result files
-  std::unique_ptr<FrameSource> frames;
-  RunFacts facts;
-};
-
-std::string sceneTextOf(const fs::path& path) {
-  if (!fs::is_directory(path)) return SegmentReader(path).sceneText();
-  const auto segments = segmentFiles(path / "frames");
-  return segments.empty() ? "" : SegmentReader(segments.front()).sceneText();
-}
-
-Source openSource(const std::string& text, bool several) {
-  Source source;
-  source.path = text;
-  source.frames = openFrames(text);
-  if (source.frames->size() == 0) throw InputError(fmt::format("{}: there are no frames yet", text));
-  if (const std::string scene = sceneTextOf(source.path); !scene.empty())
-    source.facts = factsOf(parseScene(scene, text + " (scene inside)"));
-  fs::path name = source.path;
-  if (!name.has_filename()) name = name.parent_path(); // "run/"
-  if (several) source.prefix = name.stem().string() + "_";
-  return source;
-}
-
-bool gatesClosed(const Frame& frame) {
-  return std::all_of(frame.walls.begin(), frame.walls.end(), [](const FrameWall& w) { return w.active; });
-}
-
-/// The last frame with all gates closed (the settled bed), or the last of all. Gates open once, so closed
-/// frames come first.
-std::size_t settledFrame(const Source& source) {
-  std::size_t closed = 0, beyond = source.frames->size();
-  while (closed + 1 < beyond) {
-    const std::size_t middle = (closed + beyond) / 2;
-    (gatesClosed(*source.frames->load(middle)) ? closed : beyond) = middle;
-  }
-  return closed;
-}
-
-std::pair<std::size_t, std::size_t> framesFor(const Source& source, const AnalyzeOptions& options) {
-  if (!options.frames.empty()) return frameRange(options.frames, source.frames->size(), source.path.string());
-  const std::size_t settled = settledFrame(source);
-  return {settled, settled};
-}
-
 RegionOptions regionFor(const Source& source, const AnalyzeOptions& options, double diameter) {
   RegionOptions region;
   region.up = source.facts.up;
@@ -84,16 +35,6 @@ RegionOptions regionFor(const Source& source, const AnalyzeOptions& options, dou
   if (!options.margin.empty()) region.surfaceMargin = lengthOption("--margin", options.margin, diameter);
   addLimits(options.limits, region);
   return region;
-}
-
-void stamp(Curve& curve, const Source& source, const Frame& frame) {
-  for (const auto& [key, value] : frame.provenance)
-    curve.provenance[key] = value;
-  curve.provenance["source"] = source.path.string();
-}
-
-double diameterFor(const AnalyzeOptions& options, const Frame& frame) {
-  return options.diameter.empty() ? meanDiameter(frame) : lengthOption("--diameter", options.diameter, 0);
 }
 
 void analyzeGr(const Source& source, const AnalyzeOptions& options, ResultFiles& files) {
@@ -264,9 +205,12 @@ void analyzeBeverloo(const std::vector<Source>& sources, const AnalyzeOptions& o
 }
 
 int analyze(AnalyzeOptions options) {
-  const bool chosen =
-      options.gr || options.packing || options.discharge || options.energies || options.beverloo;
+  const bool chosen = options.gr || options.packing || options.discharge || options.energies ||
+                      options.beverloo || options.contacts || options.residence || options.heap ||
+                      !options.impactMap.empty();
   if (!chosen) options.all = true;
+  if (options.sources.empty() && options.impactMap.empty())
+    throw InputError("name a run folder or a frame file to analyse");
   std::vector<Source> sources;
   std::map<std::string, int> used;
   for (const auto& text : options.sources) {
@@ -288,10 +232,15 @@ int analyze(AnalyzeOptions options) {
       fmt::print("{}{} left out: {}\n", prefix, name, e.what());
     }
   };
+  if (!options.impactMap.empty()) analyzeImpacts(options, files);
   for (const auto& source : sources) {
     attempt(options.discharge, "discharge", source.prefix, [&] { analyzeDischarge(source, options, files); });
     attempt(options.energies, "energies", source.prefix, [&] { analyzeEnergies(source, options, files); });
     attempt(options.packing, "packing", source.prefix, [&] { analyzePacking(source, options, files); });
+    attempt(options.contacts, "contacts", source.prefix, [&] { analyzeContacts(source, options, files); });
+    attempt(options.residence, "residence times", source.prefix,
+            [&] { analyzeResidence(source, options, files); });
+    attempt(options.heap, "heap angle", source.prefix, [&] { analyzeHeap(source, options, files); });
     attempt(options.gr, "g(r)", source.prefix, [&] { analyzeGr(source, options, files); });
   }
   if (options.beverloo || sources.size() > 1)
@@ -307,13 +256,24 @@ void addAnalyze(CLI::App& app, Action& action) {
   AnalyzeOptions& o = *options;
   CLI::App* command =
       app.add_subcommand("analyze", "Curves and numbers from runs or frame files: CSV, JSON, charts");
-  command->add_option("source", o.sources, "run folders or .vtkhdf files")->required()->type_name("RUN|FILE");
+  command->add_option("source", o.sources, "run folders or .vtkhdf files")->type_name("RUN|FILE");
   command->add_option("-o,--output", o.folder, "folder for the results")->required()->type_name("DIR");
   command->add_flag("--gr", o.gr, "pair correlation g(r)");
   command->add_flag("--packing", o.packing, "packing fraction by height");
   command->add_flag("--discharge", o.discharge, "mass discharged against time and its rate");
   command->add_flag("--energies", o.energies, "energies against time");
   command->add_flag("--beverloo", o.beverloo, "Beverloo's law through the rates of several runs");
+  command->add_flag("--contacts", o.contacts, "distributions of overlaps and contact forces");
+  command->add_flag("--residence", o.residence, "residence times of the grains that an outlet recorded");
+  command->add_flag("--heap", o.heap, "angle of the heaps that a slot hopper keeps");
+  command
+      ->add_option("--impact-map", o.impactMap,
+                   "rebound slip against incident slip of single impacts with the laws of this scene")
+      ->type_name("SCENE");
+  command
+      ->add_option("--impact-speed", o.impactSpeed,
+                   "normal speed of these impacts in m/s (default: so slow that it hardly matters)")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--all", o.all, "everything that the input allows (the default)");
   command->add_option("--r-max", o.rMax, "largest distance of g(r): 5d or \"12 mm\"")
       ->capture_default_str()

@@ -15,6 +15,9 @@ struct AnalyzeOptions {
   std::vector<std::string> sources;
   std::string folder;
   bool gr = false, packing = false, discharge = false, energies = false, beverloo = false, all = false;
+  bool contacts = false, residence = false, heap = false;
+  std::string impactMap;  ///< a scene
+  double impactSpeed = 0; ///< [m/s]; 0: slow
   bool csvOnly = false;
   std::string rMax = "5d", estimator = "E3", frames, diameter, margin, shares, depth, probe, flowingDensity;
   std::vector<std::string> limits;

@@ -19,8 +19,8 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
   view_.noShift = static_cast<std::uint8_t>(list.shifts().size() / 2); // codes are symmetric about the box
   view_.material = grains.material.data();
   view_.materials = laws_.materials();
-  view_.oneMaterial = std::all_of(grains.material.begin(), grains.material.end(),
-                                  [](std::uint8_t m) { return m == 0; });
+  view_.oneMaterial =
+      std::all_of(grains.material.begin(), grains.material.end(), [](std::uint8_t m) { return m == 0; });
   view_.history = list.history();
   view_.historySize = list.historySize();
   view_.output = &list.output()->x;

@@ -67,7 +67,9 @@ const Kernel& plainKernel();
 const Kernel& avx2Kernel();
 const Kernel& avx512Kernel();
 inline const Kernel& kernelOf(KernelWidth width) {
-  return width == KernelWidth::avx512 ? avx512Kernel() : width == KernelWidth::avx2 ? avx2Kernel() : plainKernel();
+  return width == KernelWidth::avx512 ? avx512Kernel()
+         : width == KernelWidth::avx2 ? avx2Kernel()
+                                      : plainKernel();
 }
 
 } // namespace sandglass

@@ -78,8 +78,7 @@ void fill(const ParticleView& v, std::int64_t first, int count, ContactBlock& b,
 
 /// Columns x y z of four contacts to quads (x y z 0), `stride` doubles apart.
 inline void scatter(const double* x, const double* y, const double* z, double* out, std::int64_t stride) {
-  const Columns q =
-      transpose(_mm256_load_pd(x), _mm256_load_pd(y), _mm256_load_pd(z), _mm256_setzero_pd());
+  const Columns q = transpose(_mm256_load_pd(x), _mm256_load_pd(y), _mm256_load_pd(z), _mm256_setzero_pd());
   _mm256_store_pd(out, q.x);
   _mm256_store_pd(out + stride, q.y);
   _mm256_store_pd(out + 2 * stride, q.z);

@@ -15,9 +15,11 @@ void move(const ParticleView& v, std::int64_t first, int count, const GroupSums&
   // Zero in the last lane keeps radius, 1/mass and 1/radius as they are.
   const __m256d pull = _mm256_set_pd(0, dt * gravity[2], dt * gravity[1], dt * gravity[0]);
   const __m256d xyz = _mm256_castsi256_pd(_mm256_set_epi64x(0, -1, -1, -1));
-  const __m256d absolute = _mm256_castsi256_pd(_mm256_set_epi64x(0, ~(1ull << 63), ~(1ull << 63), ~(1ull << 63)));
+  const __m256d absolute =
+      _mm256_castsi256_pd(_mm256_set_epi64x(0, ~(1ull << 63), ~(1ull << 63), ~(1ull << 63)));
   const __m256d limit = _mm256_set1_pd(speedLimit);
-  __m256d most = _mm256_set_pd(0, speeds.z, speeds.y, speeds.x), fine = _mm256_cmp_pd(limit, limit, _CMP_EQ_OQ);
+  __m256d most = _mm256_set_pd(0, speeds.z, speeds.y, speeds.x),
+          fine = _mm256_cmp_pd(limit, limit, _CMP_EQ_OQ);
   const bool turning = v.quads > 2, couples = v.outputQuads > 2;
   for (int i = 0; i < count; ++i) {
     double* r = v.records + (first + i) * 4 * v.quads;
@@ -34,8 +36,7 @@ void move(const ParticleView& v, std::int64_t first, int count, const GroupSums&
     const __m256d roll = _mm256_load_pd(r + 8);
     __m256d torque = _mm256_load_pd(f + 4);
     if (couples)
-      torque = _mm256_add_pd(torque,
-                             _mm256_mul_pd(_mm256_load_pd(f + 8), _mm256_permute4x64_pd(roll, 0xff)));
+      torque = _mm256_add_pd(torque, _mm256_mul_pd(_mm256_load_pd(f + 8), _mm256_permute4x64_pd(roll, 0xff)));
     const __m256d turn = _mm256_and_pd(_mm256_mul_pd(_mm256_set1_pd(2.5), kick), xyz);
     _mm256_store_pd(r + 8, _mm256_add_pd(roll, _mm256_mul_pd(turn, _mm256_and_pd(torque, xyz))));
   }

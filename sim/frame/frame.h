@@ -62,6 +62,7 @@ struct FrameContact {
   Vec3 point = Vec3::Zero();         ///< [m]
   Vec3 normal = Vec3::Zero();        ///< unit, from b (or wall) to a
   Vec3 force = Vec3::Zero();         ///< [N] on a
+  double overlap = 0;                ///< [m]; negative: a gap, across which a law acts
 };
 
 struct Frame {

@@ -145,6 +145,9 @@ struct SegmentReader::Impl {
       return toVectors(readRows<double>(group, name, first, count, 3));
     };
     const auto point = vectors("point"), normal = vectors("normal"), force = vectors("force");
+    const auto overlap = exists(group, "overlap") // files of earlier versions have none
+                             ? readRows<double>(group, "overlap", first, count, 1)
+                             : std::vector<double>(count, 0.0);
     for (std::size_t i = 0; i < count; ++i)
       frame.contacts.push_back({a[i],
                                 b[i],
@@ -152,7 +155,8 @@ struct SegmentReader::Impl {
                                 {image[3 * i], image[3 * i + 1], image[3 * i + 2]},
                                 point[i],
                                 normal[i],
-                                force[i]});
+                                force[i],
+                                overlap[i]});
   }
 
   [[noreturn]] void refuse(const Failure& failure) const {

@@ -215,6 +215,7 @@ struct SegmentWriter::Impl {
         contacts[name] = Column(contactGroup, name, H5T_NATIVE_INT64, {}, grainRows);
       contacts["wall"] = Column(contactGroup, "wall", H5T_NATIVE_INT32, {}, grainRows);
       contacts["image"] = Column(contactGroup, "image", H5T_NATIVE_INT32, {3}, grainRows);
+      contacts["overlap"] = Column(contactGroup, "overlap", H5T_NATIVE_DOUBLE, {}, grainRows);
       for (const char* name : {"point", "normal", "force"})
         contacts[name] = Column(contactGroup, name, H5T_NATIVE_DOUBLE, {3}, grainRows);
     }
@@ -228,6 +229,8 @@ struct SegmentWriter::Impl {
     const auto a = gather("a", [](const FrameContact& c) { return c.a; });
     const auto b = gather("b", [](const FrameContact& c) { return c.b; });
     const auto wall = gather("wall", [](const FrameContact& c) { return static_cast<std::int32_t>(c.wall); });
+    const auto overlap = gather("overlap", [](const FrameContact& c) { return c.overlap; });
+    contacts["overlap"].append(overlap.data(), overlap.size());
     const auto image = gather("image", [](const FrameContact& c) { return c.image; });
     contacts["a"].append(a.data(), a.size());
     contacts["b"].append(b.data(), b.size());

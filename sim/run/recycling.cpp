@@ -41,9 +41,18 @@ public:
     unit[up_] = 1 - unit[up_];
     const double highest = sign_ * region_.centre(unit, g.radius)[up_];
     const double lift = 1e-6 * g.radius; // so that round-off makes no contact
-    double height = sign_ * x[up_];
+    std::vector<std::pair<double, double>> blocked;
     for (const GrainSeed& other : bed)
-      height = std::max(height, clearance(x, g.radius, other) + lift);
+      if (const double half = halfBlocked(x, g.radius, other); half > 0) {
+        const double middle = sign_ * other.position[up_];
+        blocked.emplace_back(middle - half - lift, middle + half + lift);
+      }
+    std::sort(blocked.begin(), blocked.end());
+    double height = sign_ * x[up_];
+    for (const auto& [from, to] : blocked) {
+      if (from - height >= 2 * g.radius) break; // a void of the bed is smaller than that
+      height = std::max(height, to);
+    }
     if (height > highest) return std::nullopt;
     x[up_] = sign_ * height;
     return x;
@@ -57,8 +66,9 @@ private:
     return p;
   }
 
-  /// Height at which a sphere of `radius` over the level place of x rests on the other, all images counted.
-  double clearance(const Vec3& x, double radius, const GrainSeed& other) const {
+  /// Over the level place of x: half the range of heights in which a sphere of `radius` overlaps the other,
+  /// all images counted; 0 when it never does.
+  double halfBlocked(const Vec3& x, double radius, const GrainSeed& other) const {
     const double reach = radius + other.radius;
     const int a = (up_ + 1) % 3, b = (up_ + 2) % 3;
     double nearest = reach * reach;
@@ -69,8 +79,7 @@ private:
         const double db = x[b] - other.position[b] + j * (scene_.domain.upper[b] - scene_.domain.lower[b]);
         nearest = std::min(nearest, da * da + db * db);
       }
-    const double rise = reach * reach - nearest;
-    return rise > 0 ? sign_ * other.position[up_] + std::sqrt(rise) : -HUGE_VAL;
+    return std::sqrt(reach * reach - nearest);
   }
 
   const Scene& scene_;

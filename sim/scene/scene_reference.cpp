@@ -115,8 +115,10 @@ std::string sceneReference() {
   text += kinds(motionKinds(), "motion.kind");
   text +=
       "## `[[outlet]]`: a plane beyond which grains leave the run\n\n" + table(outletKeys()) +
-      "and, if wanted, `recycle = { … }`: grains that pass are put back at a random place of a box, as low "
-      "as nothing lies\nabove it, and wait until there is one. Each keeps its id and counts its lives.\n\n" +
+      "and, if wanted, `recycle = { … }`: grains that pass are put back over what lies in a box, at random "
+      "places, "
+      "each as low\nas its own diameter is free above it; they wait until there is such a place. Each keeps "
+      "its id and counts its lives.\n\n" +
       table(recycleKeys());
   text += "## `[[fill]]`: where grains come from\n\nGrains are named by `species`, or by `mixture = [{ "
           "species = \"…\", fraction "

@@ -79,20 +79,42 @@ normal = [0, 0, 1]
                     "bench", knobs);
 }
 
-std::vector<std::string> Beads::lammpsForces() const {
+std::string Beads::lammpsDeck(std::int64_t look) const {
   const peers::HookeHistory c = standardCoefficients(friction);
-  std::vector<std::string> lines{
-      "pair_style " + c.words(),
-      "pair_coeff * *",
-      "neighbor 0.1 bin", // as the benchmark has it
-      "neigh_modify every 1 delay 0",
-      fmt::format("timestep {:.17g}", timeStep),
-      fmt::format("fix weight all gravity {:.17g} vector {:.17g} 0 {:.17g}", gravity,
-                  std::sin(angle * degree), -std::cos(angle * degree)),
-      "fix motion all nve/sphere",
+  std::string deck = peers::lammpsOpening(scene(), "grains.data");
+  // The skin is the one that the benchmark has.
+  deck += fmt::format("pair_style {}\npair_coeff * *\nneighbor 0.1 bin\nneigh_modify every 1 delay 0\n"
+                      "timestep {:.17g}\nfix weight all gravity {:.17g} vector {:.17g} 0 {:.17g}\n"
+                      "fix motion all nve/sphere\n",
+                      c.words(), timeStep, gravity, std::sin(angle * degree), -std::cos(angle * degree));
+  if (floor) deck += fmt::format("fix floor all wall/gran {} zplane 0 NULL\n", c.wallWords());
+  return deck + fmt::format("compute kinetic all ke\nthermo_style custom step atoms c_kinetic\n"
+                            "thermo_modify norm no format float %.17g\nthermo {}\n",
+                            look);
+}
+
+std::string Beads::liggghtsDeck(std::int64_t look) const {
+  const peers::HookeHistory c = standardCoefficients(friction);
+  std::string deck = fmt::format("units lj\natom_style granular\natom_modify map array\nboundary p p {}\n"
+                                 "newton off\ncommunicate single vel yes\nread_data grains.data\n",
+                                 floor ? "f" : "p");
+  const auto property = [&](const char* name, double value) {
+    deck += fmt::format("fix {0} all property/global {0} peratomtypepair 1 {1:.17g}\n", name, value);
   };
-  if (floor) lines.push_back(fmt::format("fix floor all wall/gran {} zplane 0 NULL", c.wallWords()));
-  return lines;
+  property("kn", c.normalStiffness);
+  property("kt", c.tangentialStiffness);
+  property("gamman", c.normalDamping);
+  property("gammat", c.tangentialDamping);
+  property("coefficientFriction", c.friction);
+  deck += fmt::format("pair_style gran model hooke/stiffness tangential history\npair_coeff * *\n"
+                      "neighbor 0.1 bin\nneigh_modify every 1 delay 0\ntimestep {:.17g}\n"
+                      "fix weight all gravity {:.17g} vector {:.17g} 0 {:.17g}\nfix motion all nve/sphere\n",
+                      timeStep, gravity, std::sin(angle * degree), -std::cos(angle * degree));
+  if (floor)
+    deck += "fix floor all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0\n";
+  return deck + fmt::format("compute kinetic all ke\nthermo_style custom step atoms c_kinetic\n"
+                            "thermo_modify norm no format float %.17g\nthermo {}\n",
+                            look);
 }
 
 std::vector<GrainSeed> settledTile(int across, int layers, bool quick) {

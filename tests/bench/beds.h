@@ -22,7 +22,10 @@ struct Beads {
   double timeStep = 1e-4;
 
   Scene scene(const std::vector<std::string>& knobs = {}) const;
-  std::vector<std::string> lammpsForces() const; ///< pair style, gravity, floor, integration as deck lines
+  /// Decks of other programs up to their `run`: grains.data, forces, floor, kinetic energy every `look`
+  /// steps.
+  std::string lammpsDeck(std::int64_t look) const;
+  std::string liggghtsDeck(std::int64_t look) const;
 };
 
 /// Spring, damping, friction of the benchmark.

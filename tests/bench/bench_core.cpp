@@ -31,7 +31,6 @@ using namespace sandglass::bench;
 
 namespace {
 
-constexpr std::int64_t lookStep = 300;   ///< when kinetic energies are compared
 constexpr double energyTolerance = 1e-3; ///< relative; beyond it the two did not run the same case
 
 using Clock = std::chrono::steady_clock;
@@ -102,7 +101,7 @@ Timing runOurs(const CoreCase& c, int threads, double contacts, int round) {
     t.cpuSeconds += cpuSeconds() - cpu;
     t.wallSeconds += secondsSince(start);
     done += steps;
-    if (done == lookStep && !c.lammps.empty()) t.kineticEnergy = solver->energies().translational;
+    if (done == lookStep && !c.lammpsDeck.empty()) t.kineticEnergy = solver->energies().translational;
   }
   t.bytesPerGrain = solver->bytesPerGrain();
   t.check = hashOf(*solver);
@@ -111,18 +110,22 @@ Timing runOurs(const CoreCase& c, int threads, double contacts, int round) {
   return t;
 }
 
-Timing runLammpsOn(const CoreCase& c, const std::filesystem::path& folder, int ranks, int round) {
-  std::string deck = peers::lammpsOpening(c.scene, "grains.data");
-  for (const std::string& line : c.lammps)
-    deck += line + "\n";
-  deck += fmt::format("compute kinetic all ke\nthermo_style custom step atoms c_kinetic\n"
-                      "thermo_modify norm no format float %.17g\nthermo {}\nrun {}\n",
-                      lookStep, c.steps);
-  const peers::LammpsRun run = peers::runLammps(folder, deck, ranks);
+/// A program beside ours that reads decks of LAMMPS's kind.
+struct Peer {
+  const char *name, *command;
+  const std::string CoreCase::*deck;
+};
+constexpr Peer allPeers[] = {{"lammps", "lmp", &CoreCase::lammpsDeck},
+                             {"liggghts", "liggghts", &CoreCase::liggghtsDeck}};
+
+Timing runPeer(const CoreCase& c, const Peer& peer, const std::filesystem::path& folder, int ranks,
+               int round) {
+  const std::string deck = c.*peer.deck + fmt::format("run {}\n", c.steps);
+  const peers::LammpsRun run = peers::runLammps(folder, deck, ranks, peer.command);
   const auto& loop = run.loops.front();
   Timing t;
   t.benchCase = c.name;
-  t.program = "lammps";
+  t.program = peer.name;
   t.threads = ranks;
   t.precision = "double";
   t.round = round;
@@ -131,7 +134,8 @@ Timing runLammpsOn(const CoreCase& c, const std::filesystem::path& folder, int r
   t.wallSeconds = loop.seconds;
   t.cpuSeconds = loop.seconds * ranks; // its ranks wait by spinning
   for (const auto& row : loop.thermo)
-    if (row.at("Step") == lookStep) t.kineticEnergy = row.at("c_kinetic");
+    if (row.at("Step") == lookStep)
+      t.kineticEnergy = row.contains("kinetic") ? row.at("kinetic") : row.at("c_kinetic");
   return t;
 }
 
@@ -143,39 +147,41 @@ Timing notInstalled(const std::string& name, const std::string& program) {
   return t;
 }
 
-/// Rows whose energies differ from those of the other program are void.
+/// Rows of another program whose energy differs from ours ran another case.
 void compareEnergies(std::vector<Timing>& timings, const std::string& name) {
-  double theirs = -1;
+  double ours = 0;
   for (const Timing& t : timings)
-    if (t.benchCase == name && t.program == "lammps") theirs = t.kineticEnergy;
-  if (theirs < 0) return;
+    if (t.benchCase == name && t.program == "sandglass") ours = t.kineticEnergy;
   for (Timing& t : timings)
-    if (t.benchCase == name && t.program == "sandglass") {
-      const double off = std::abs(t.kineticEnergy / theirs - 1);
-      if (off > energyTolerance) t.check = fmt::format("void: kinetic energy off by {:.2g}", off);
+    if (t.benchCase == name && t.program != "sandglass" && t.wallSeconds > 0) {
+      const double off = std::abs(t.kineticEnergy / ours - 1);
+      if (!(off <= energyTolerance)) t.check = fmt::format("void: kinetic energy off by {:.2g}", off);
     }
 }
 
-void measure(const CoreCase& c, int rounds, bool lammps, std::vector<Timing>& timings) {
+void measure(const CoreCase& c, int rounds, const std::vector<Peer>& others, std::vector<Timing>& timings) {
   const double contacts = contactsOf(c);
+  std::vector<Peer> taking;
+  for (const Peer& p : others)
+    if (!(c.*p.deck).empty()) taking.push_back(p);
   std::optional<peers::ScratchFolder> scratch;
-  if (lammps) {
+  if (!taking.empty()) {
     scratch.emplace();
     peers::writeLammpsData(scratch->path() / "grains.data", c.scene, c.grains);
   }
+  const int runners = 1 + static_cast<int>(taking.size());
   for (int round = 1; round <= rounds; ++round)
-    for (const int threads : {1, 2}) {
-      // Who begins alternates, so that a drift of the machine favours nobody.
-      for (const bool first : {true, false})
-        if (first == (round % 2 == 1))
-          timings.push_back(runOurs(c, threads, contacts, round));
-        else if (lammps)
-          timings.push_back(runLammpsOn(c, scratch->path(), threads, round));
-      const Timing& last = timings.back();
-      std::cerr << fmt::format("{} round {}/{}, {} threads: {} {:.2f} million grain-steps/s\n", c.name, round,
-                               rounds, threads, last.program, last.rate() / 1e6);
-    }
-  if (lammps) compareEnergies(timings, c.name);
+    for (const int threads : {1, 2})
+      for (int k = 0; k < runners; ++k) {
+        // The order turns round from round to round, so that a drift of the machine favours nobody.
+        const int who = round % 2 ? k : runners - 1 - k;
+        timings.push_back(who == 0 ? runOurs(c, threads, contacts, round)
+                                   : runPeer(c, taking[who - 1], scratch->path(), threads, round));
+        const Timing& last = timings.back();
+        std::cerr << fmt::format("{} round {}/{}, {} x {}: {:.2f} million grain-steps/s\n", c.name, round,
+                                 rounds, threads, last.program, last.rate() / 1e6);
+      }
+  if (!taking.empty()) compareEnergies(timings, c.name);
 }
 
 void write(const std::string& file, const std::string& text) {
@@ -200,15 +206,18 @@ int main(int argc, char** argv) {
   if (quick) rounds = 1;
   if (cases.empty()) cases = coreCaseNames();
   try {
+    std::vector<Peer> present, missing;
+    if (!alone)
+      for (const Peer& p : allPeers)
+        (peers::findProgram(p.command).empty() ? missing : present).push_back(p);
     const std::string version = alone ? "" : peers::lammpsVersion();
-    std::cerr << (version.empty() ? "without LAMMPS" : version) << "\n";
     std::vector<Timing> timings;
     for (const std::string& name : cases) {
       std::cerr << name << ": making its grains\n";
       const CoreCase c = makeCoreCase(name, quick);
-      const bool withLammps = !c.lammps.empty();
-      measure(c, rounds, withLammps && !version.empty(), timings);
-      if (withLammps && version.empty()) timings.push_back(notInstalled(name, "lammps"));
+      measure(c, rounds, present, timings);
+      for (const Peer& p : missing)
+        if (!(c.*p.deck).empty()) timings.push_back(notInstalled(name, p.name));
       write(csvFile, csv(timings)); // as it grows: a long bench may be stopped
       write(tableFile,
             fmt::format("Made by `./bootstrap bench core` on {}; {}; {} rounds.\n\n", peers::circumstances(),

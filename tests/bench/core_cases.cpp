@@ -14,8 +14,7 @@ namespace sandglass::bench {
 
 namespace {
 
-/// Steps after which the kinetic energies are compared; runs are multiples of it where others take part.
-constexpr std::int64_t look = 300;
+constexpr std::int64_t look = lookStep; // runs are multiples of it where others take part
 
 struct Tile {
   int across = 0, layers = 0;
@@ -35,8 +34,11 @@ const Tile& tile(int across, int layers, bool quick) {
 CoreCase bed(const std::string& name, const Tile& t, int nx, int ny, double angle, bool friction,
              std::int64_t steps, bool peers) {
   const Beads beads{nx * t.side(), ny * t.side(), 2.0 * t.layers + 10, angle, 1, friction, true};
-  CoreCase c{name, beads.scene(), tiled(t.grains, t.side(), nx, ny), {}, steps, {}, peers};
-  if (peers) c.lammps = beads.lammpsForces();
+  CoreCase c{name, beads.scene(), tiled(t.grains, t.side(), nx, ny), {}, steps, {}, {}, peers};
+  if (peers) {
+    c.lammpsDeck = beads.lammpsDeck(look);
+    c.liggghtsDeck = beads.liggghtsDeck(look);
+  }
   return c;
 }
 
@@ -54,7 +56,8 @@ CoreCase chute(bool quick, bool flows) {
 CoreCase dilute(bool quick) {
   Beads beads;
   const auto grains = gas(quick ? 16 : 32, 0.05, beads);
-  return {"dilute_gas", beads.scene(), grains, {}, quick ? look : 4 * look, beads.lammpsForces(), false};
+  return {"dilute_gas", beads.scene(), grains, {}, quick ? look : 4 * look, beads.lammpsDeck(look),
+          {},           false};
 }
 
 /// Runs a scene's first stage and, where it has a gate, a while of the next.
@@ -67,7 +70,7 @@ CoreCase prepared(const std::string& name, const Scene& scene, std::int64_t sett
     for (const std::string& wall : scene.stages[1].removeWalls)
       solver.removeWall(wall);
   solver.advance(flow);
-  return {name, scene, {}, solver.save(), steps, {}, false};
+  return {name, scene, {}, solver.save(), steps, {}, {}, false};
 }
 
 CoreCase conicalHopper(bool quick) {

@@ -17,9 +17,12 @@ struct CoreCase {
   std::vector<GrainSeed> grains; ///< empty when `state` is given
   Solver::State state;           ///< of a run that has come so far (walls removed, contacts with a past)
   std::int64_t steps = 0;
-  std::vector<std::string> lammps; ///< forces and motion as lines of a deck; empty: ours alone
-  bool variants = false;           ///< other precisions and arithmetics are measured too
+  std::string lammpsDeck, liggghtsDeck; ///< up to the `run` command; empty: they take no part
+  bool variants = false;                ///< other precisions and arithmetics are measured too
 };
+
+/// Step at which kinetic energies are compared.
+inline constexpr std::int64_t lookStep = 300;
 
 /// Names of all cases, in the order of the table.
 std::vector<std::string> coreCaseNames();

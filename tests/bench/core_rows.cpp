@@ -46,6 +46,27 @@ Key keyOf(const Timing& t) {
   return {t.benchCase, t.program, t.precision, t.threads};
 }
 
+/// What one case costs beside another, ours on one thread; medians of either, since they do not run in the
+/// same minutes.
+std::string acrossCases(const std::vector<Timing>& timings) {
+  const auto rate = [&](const char* name) {
+    std::vector<double> rates;
+    for (const Timing& t : timings)
+      if (t.benchCase == name && t.program == "sandglass" && t.precision == "double" && t.threads == 1)
+        rates.push_back(t.rate());
+    return median(rates);
+  };
+  std::string text;
+  const auto add = [&](const char* what, const char* above, const char* below) {
+    const double a = rate(above), b = rate(below);
+    if (a > 0 && b > 0) text += fmt::format("- {}: {:.2f}\n", what, a / b);
+  };
+  add("frictionless over frictional, 10^4 grains", "bed_1e4_frictionless", "bed_1e4");
+  add("frictionless over frictional, 10^5 grains", "bed_1e5_frictionless", "bed_1e5");
+  add("cost of a grain-step at 10^6 grains over that at 10^4", "bed_1e4", "bed_1e6");
+  return text.empty() ? text : "\nOurs, one thread, double:\n\n" + text;
+}
+
 } // namespace
 
 std::string summary(const std::vector<Timing>& timings) {
@@ -96,7 +117,7 @@ std::string summary(const std::vector<Timing>& timings) {
         cycles.empty() ? "" : fmt::format("{:.0f}", median(cycles)),
         some->bytesPerGrain > 0 ? fmt::format("{:.0f}", some->bytesPerGrain) : "");
   }
-  return text;
+  return text + acrossCases(timings);
 }
 
 } // namespace sandglass::bench

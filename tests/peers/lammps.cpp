@@ -43,7 +43,8 @@ LammpsRun parseLog(const std::string& text) {
   std::vector<std::string> headings;
   std::vector<std::map<std::string, double>> thermo;
   for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("Step ") || line.starts_with("   Step")) {
+    const auto first = line.find_first_not_of(' ');
+    if (first != std::string::npos && line.compare(first, 5, "Step ") == 0) {
       headings = words(line);
     } else if (line.starts_with("Loop time of ")) {
       // Loop time of 1.23 on 1 procs for 300 steps with 32000 atoms
@@ -116,16 +117,17 @@ std::string HookeHistory::wallWords() const {
                      tangentialDamping > 0 ? 1 : 0, limitDamping ? " limit_damping" : "");
 }
 
-LammpsRun runLammps(const fs::path& folder, const std::string& deck, int ranks) {
+LammpsRun runLammps(const fs::path& folder, const std::string& deck, int ranks, const std::string& program) {
   write(folder / "in.deck", deck);
   const std::string root = ::geteuid() == 0 ? "--allow-run-as-root " : "";
   const std::string launcher = fmt::format("mpirun {}--oversubscribe -np {} ", root, ranks);
-  const ProgramOutput output = runCommand(
-      folder, fmt::format("OMP_NUM_THREADS=1 {}lmp -in in.deck -log none", ranks > 1 ? launcher : ""));
+  const ProgramOutput output = runCommand(folder, fmt::format("OMP_NUM_THREADS=1 {}{} -in in.deck -log none",
+                                                              ranks > 1 ? launcher : "", program));
   LammpsRun run = parseLog(output.text);
   if (output.code != 0 || run.loops.empty()) {
     const auto at = output.text.find("ERROR");
-    throw RunError("LAMMPS failed: " + (at == std::string::npos ? output.text : output.text.substr(at, 400)));
+    throw RunError(program +
+                   " failed: " + (at == std::string::npos ? output.text : output.text.substr(at, 400)));
   }
   return run;
 }

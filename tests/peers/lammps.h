@@ -44,8 +44,10 @@ struct LammpsRun {
   std::vector<Loop> loops;
 };
 
-/// Runs the deck in `folder` on so many ranks. Throws RunError with LAMMPS's own words when it fails.
-LammpsRun runLammps(const std::filesystem::path& folder, const std::string& deck, int ranks);
+/// Runs the deck in `folder` on so many ranks; `program` may be a relative of LAMMPS. Throws RunError with
+/// its own words when it fails.
+LammpsRun runLammps(const std::filesystem::path& folder, const std::string& deck, int ranks,
+                    const std::string& program = "lmp");
 
 /// The command that dumps every so many steps with all digits, for readLammpsDump.
 std::string lammpsDumpCommand(const std::string& file, long long every);

@@ -57,6 +57,7 @@ inline void requireEqual(const Frame& a, const Frame& b) {
     const FrameContact &p = a.contacts[c], &q = b.contacts[c];
     REQUIRE(std::tie(p.a, p.b, p.wall, p.image) == std::tie(q.a, q.b, q.wall, q.image));
     REQUIRE((sameBits(p.point, q.point) && sameBits(p.normal, q.normal) && sameBits(p.force, q.force)));
+    REQUIRE(p.overlap == q.overlap);
   }
   REQUIRE(a.provenance == b.provenance);
 }

@@ -166,15 +166,18 @@ TEST_CASE("a place is the lowest free one over the bed, whoever asks first", "[f
   REQUIRE(both.size() == 2);
   CHECK(both[1].position.head<2>() == first[0].position.head<2>());
 
-  // A grain right below its place: twice the radius higher; one across the whole box: it waits.
+  // A pile under its place: it comes to rest on top. A grain that falls far enough above does not matter.
   FakeSolver bed(scene, stepSize);
-  GrainSeed below;
-  below.radius = 0.01;
-  below.position = first[0].position + Vec3(0, 0, 0.05);
-  bed.add({below});
+  std::vector<GrainSeed> pile(3);
+  for (std::size_t k = 0; k < pile.size(); ++k) {
+    pile[k].radius = 0.01;
+    pile[k].position = first[0].position + Vec3(0, 0, std::vector<double>{0.01, 0.045, 0.11}[k]);
+  }
+  bed.add(pile);
   Recycling above(scene);
   above.left(leaving(3));
-  CHECK(above.due(bed, "fall").at(0).position.z() == Approx(0.28).epsilon(1e-6));
+  // Blocked: 0.20 to 0.24, 0.235 to 0.275, and 0.30 to 0.34, of which 0.025 is free below.
+  CHECK(above.due(bed, "fall").at(0).position.z() == Approx(0.275).epsilon(1e-6));
   GrainSeed boulder;
   boulder.radius = 0.3;
   boulder.position = Vec3(0, 0, 0.3);

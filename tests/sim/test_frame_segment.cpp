@@ -60,8 +60,14 @@ Frame randomFrame(std::size_t grains, std::int64_t step, std::size_t contacts) {
   drum.wearWork = random.uniform();
   drum.collisions = step;
   for (std::size_t c = 0; c < contacts; ++c)
-    f.contacts.push_back(
-        {static_cast<std::int64_t>(c), c % 2 ? -1 : 7, c % 2 ? 1 : -1, {0, -1, 2}, vec(), vec(), vec()});
+    f.contacts.push_back({static_cast<std::int64_t>(c),
+                          c % 2 ? -1 : 7,
+                          c % 2 ? 1 : -1,
+                          {0, -1, 2},
+                          vec(),
+                          vec(),
+                          vec(),
+                          1e-4 * static_cast<double>(c)});
   f.provenance = {{"scene", "00ff"}, {"version", "0.1"}};
   return f;
 }

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -96,4 +97,25 @@ TEST_CASE("sample hopper_conical: a steep cone empties", "[samples]") {
   CHECK(run.summary.flow.grainsEntered == 600);
   CHECK(run.summary.grains == 0);
   CHECK(run.summary.flow.massDischarged == Approx(run.summary.flow.massEntered).epsilon(1e-12));
+}
+
+TEST_CASE("sample hopper_fed: a feed hopper keeps the flow going", "[samples]") {
+  const Outcome run = runQuickly("hopper_fed");
+  const Flow& flow = run.summary.flow;
+  CHECK(flow.grainsEntered == 400);
+  CHECK(flow.grainsRecycled >= 320); // 0.8 of them
+  CHECK(flow.grainsEntered + flow.grainsRecycled - flow.grainsDischarged ==
+        static_cast<std::int64_t>(run.summary.grains));
+  CHECK(flow.grainsDischarged - flow.grainsRecycled < 10); // those that wait to be put back
+  // What the upper hopper feeds is what leaves the lower one and what this gains; each grain weighs about 10
+  // mg.
+  const double opened = run.summary.stageStarts.at(2), end = run.last->time;
+  const auto change = [&](const char* probe, const char* value) {
+    return run.at(probe, value, end) - run.at(probe, value, opened);
+  };
+  CHECK(change("feed", "mass") ==
+        Approx(change("outflow", "mass") + change("in_hopper", "mass")).margin(1e-9));
+  CHECK(change("feed", "mass") > 0.5e-3);
+  const auto& life = run.last->scalar(quantity::life);
+  CHECK(std::count_if(life.begin(), life.end(), [](double l) { return l > 0; }) > 100);
 }

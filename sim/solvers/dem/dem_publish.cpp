@@ -63,9 +63,8 @@ FramePtr DemSolver::frame() const {
   if (wants(quantity::spin) && grains_.turning)
     vectors(quantity::spin, [&](std::int32_t i) { return full.spin[i]; });
   if (wants(quantity::force))
-    vectors(quantity::force, [&](std::int32_t i) {
-      return Vec3(full.force[i].vec() + grains_.mass(i) * scene_.gravity);
-    });
+    vectors(quantity::force,
+            [&](std::int32_t i) { return Vec3(full.force[i].vec() + grains_.mass(i) * scene_.gravity); });
   if (wants(quantity::residenceTime))
     scalars(quantity::residenceTime,
             [&](std::int32_t i) { return time() - lives_.enteredAt(grains_.id[i]); });
@@ -82,6 +81,7 @@ FramePtr DemSolver::frame() const {
     contact.image = list_.image(p);
     contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
     contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
+    contact.overlap = b.overlap[c];
     const double radius = grains_.place[i].w, sum = radius + grains_.place[j].w;
     contact.point = wrapped(grains_.place[i].vec() - radius * (sum - b.overlap[c]) / sum * contact.normal);
     frame->contacts.push_back(contact);
@@ -96,6 +96,7 @@ FramePtr DemSolver::frame() const {
         contact.a = grains_.id[i];
         contact.wall = wall;
         contact.normal = touch.normal;
+        contact.overlap = b.overlap[c];
         contact.force = b.normalForce[c] * touch.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
         contact.point = wrapped(grains_.place[i].vec() - touch.distance * touch.normal);
         frame->contacts.push_back(contact);
@@ -117,8 +118,7 @@ Energies DemSolver::energies() const {
     e.gravitational -= m * scene_.gravity.dot(x);
     if (grains_.turning) e.rotational += 0.5 * grains_.inertia(i) * full.spin[i].squaredNorm();
   }
-  if (!stale_)
-    e.elastic = pairForces_.storedEnergy(dt_) + wallContacts_.storedEnergy(grains_, walls_);
+  if (!stale_) e.elastic = pairForces_.storedEnergy(dt_) + wallContacts_.storedEnergy(grains_, walls_);
   return e;
 }
 
@@ -253,7 +253,8 @@ void DemSolver::load(const State& s) {
   std::vector<Quad> records;
   get(s, "records", records);
   if (records.size() != (grains_.size() + 2) * grains_.quadsPerRecord())
-    throw InputError("the checkpoint's grain records do not fit the scene; it belongs to another scene or version");
+    throw InputError(
+        "the checkpoint's grain records do not fit the scene; it belongs to another scene or version");
   grains_.setRecords(records);
 
   // The list as it was: built from the positions that it was built from. The sort is stable, so the storage

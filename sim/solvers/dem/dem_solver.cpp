@@ -65,6 +65,7 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
   grains_.quantityNames = laws_.quantityNames();
   grains_.quantities.resize(grains_.quantityNames.size());
   walls_ = makeSolverWalls(scene);
+  atFullStep_.tallies.resize(walls_.size());
   wallRadius_ = farthestReach(walls_, scene.domain) + meanDiameter_ + skin_;
   if (const double fastest = fastestWall(scene); fastest * dt_ > 0.25 * smallestRadius_)
     throw InputError(
@@ -76,8 +77,7 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
 
 void DemSolver::add(const std::vector<GrainSeed>& seeds) {
   if (seeds.empty()) return;
-  toFullStep();
-  atFullStep_.valid = false;
+  changeAhead();
   const std::size_t before = grains_.size();
   grains_.resize(before + seeds.size());
   for (std::size_t k = 0; k < seeds.size(); ++k) {
@@ -96,6 +96,10 @@ void DemSolver::add(const std::vector<GrainSeed>& seeds) {
     for (std::size_t q = 0; q < s.quantities.size(); ++q)
       grains_.quantities.at(q)[i] = s.quantities[q];
     nextId_ = std::max(nextId_, s.id + 1);
+    newcomers_.push_back(s.id);
+    atFullStep_.velocity.push_back(s.velocity);
+    if (grains_.turning) atFullStep_.spin.push_back(s.spin);
+    atFullStep_.force.emplace_back();
     lives_.entered(s.id, s.life, time());
     (s.life > 0 ? flow_.massRecycled : flow_.massEntered) += mass;
     ++(s.life > 0 ? flow_.grainsRecycled : flow_.grainsEntered);
@@ -113,7 +117,7 @@ void DemSolver::checkPromisedSizes() {
 void DemSolver::removeWall(const std::string& name) {
   for (SolverWall& w : walls_)
     if (w.name == name) {
-      toFullStep();
+      changeAhead();
       w.active = false;
       return;
     }
@@ -123,7 +127,7 @@ void DemSolver::removeWall(const std::string& name) {
 void DemSolver::beginStage(const std::string& name) {
   markStage(walls_, name, time());
   placeWalls(walls_, time(), 0.0);
-  atFullStep_.valid = false;
+  if (!stale_) atFullStep_.valid = false;
 }
 
 void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
@@ -152,21 +156,10 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
 const DemSolver::FullStep& DemSolver::fullStep() const {
   FullStep& full = atFullStep_;
   if (full.valid) return full;
+  if (stale_) return full; // changeAhead() and add() keep it
   const std::size_t n = grains_.size();
   full.velocity.resize(n);
   full.spin.resize(grains_.turning ? n : 0);
-  if (stale_) { // velocities are those of the full step already, and nobody knows the forces yet
-    full.force.assign(n, {});
-    full.tallies.clear();
-    for (const SolverWall& wall : walls_)
-      full.tallies.push_back(wall.tally);
-    for (std::size_t i = 0; i < n; ++i) {
-      full.velocity[i] = grains_.motion[i].vec();
-      if (grains_.turning) full.spin[i] = grains_.spin(i);
-    }
-    full.valid = true;
-    return full;
-  }
   evaluate(full.force, full.torque);
   for (std::size_t i = 0; i < n; ++i) {
     const double kick = 0.5 * dt_ * grains_.motion[i].w;
@@ -184,7 +177,7 @@ void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) co
   const auto history = walls.historyArray();
   const auto feature = walls.featureArray();
   DeepestOverlap deepest;
-  placeWalls(walls_, time(), stale_ ? 0.0 : dt_);
+  placeWalls(walls_, time(), dt_);
   walls.step(grains_, walls_, dt_, parallel_, deepest);
   loop_.forces(dt_, force, torque);
   walls.historyArray() = history;
@@ -197,37 +190,42 @@ void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) co
   placeWalls(walls_, time(), 0.0); // as frames show them
 }
 
-void DemSolver::toFullStep() {
+void DemSolver::changeAhead() {
   if (stale_) return;
-  const FullStep& full = fullStep();
-  for (std::size_t i = 0; i < grains_.size(); ++i) {
-    Quad& v = grains_.motion[i];
-    const Vec3& now = full.velocity[i];
-    v = {now.x(), now.y(), now.z(), v.w};
-    if (!grains_.turning) continue;
-    Quad& u = grains_.roll[i];
-    const Vec3 surface = grains_.place[i].w * full.spin[i];
-    u = {surface.x(), surface.y(), surface.z(), u.w};
-  }
+  fullStep(); // still known now
   stale_ = true;
-  atFullStep_.valid = false;
 }
 
 void DemSolver::prepare() {
   if (!stale_) return;
   rebuild();
-  std::vector<Quad> force, torque;
-  evaluate(force, torque);
-  for (std::size_t i = 0; i < grains_.size(); ++i) { // half a step back
-    Quad& v = grains_.motion[i];
-    const Vec3 before = v.vec() - 0.5 * dt_ * (v.w * force[i].vec() + scene_.gravity);
-    v = {before.x(), before.y(), before.z(), v.w};
-    if (!grains_.turning) continue;
-    Quad& u = grains_.roll[i];
-    const Vec3 rolled = u.vec() - 0.5 * dt_ * grains_.place[i].w / grains_.inertia(i) * torque[i].vec();
-    u = {rolled.x(), rolled.y(), rolled.z(), u.w};
-  }
   stale_ = false;
+  std::sort(newcomers_.begin(), newcomers_.end());
+  std::vector<std::int64_t> fresh;
+  for (std::size_t i = 0; !newcomers_.empty() && i < grains_.size(); ++i)
+    if (std::binary_search(newcomers_.begin(), newcomers_.end(), grains_.id[i]))
+      fresh.push_back(static_cast<std::int64_t>(i));
+  newcomers_.clear();
+  // Newcomers have velocities of the full step: half a step back. Forces depend on the velocities sought, so
+  // once is not enough; each round gains the digits that damping times half a step leaves, one or two.
+  std::vector<Quad> start, force, torque;
+  for (const std::int64_t i : fresh) {
+    start.push_back(grains_.motion[i]);
+    if (grains_.turning) start.push_back(grains_.roll[i]);
+  }
+  for (int round = 0; round < 4 && !fresh.empty(); ++round) {
+    evaluate(force, torque);
+    const Quad* from = start.data();
+    for (const std::int64_t i : fresh) {
+      const Quad v = *from++;
+      const Vec3 before = v.vec() - 0.5 * dt_ * (v.w * force[i].vec() + scene_.gravity);
+      grains_.motion[i] = {before.x(), before.y(), before.z(), v.w};
+      if (!grains_.turning) continue;
+      const Quad u = *from++;
+      const Vec3 rolled = u.vec() - 0.5 * dt_ * grains_.place[i].w / grains_.inertia(i) * torque[i].vec();
+      grains_.roll[i] = {rolled.x(), rolled.y(), rolled.z(), u.w};
+    }
+  }
   atFullStep_.valid = false;
 }
 

@@ -72,8 +72,8 @@ private:
 
   void checkPromisedSizes(); ///< laws may count on one grain mass a material until a grain has another
   void rebuild(const std::vector<std::uint8_t>& drop = {});
-  void prepare();    ///< fresh list, velocities half a step back, after grains or walls have changed
-  void toFullStep(); ///< before grains or walls change: velocities of the full step; `stale_` from here on
+  void prepare();     ///< fresh list, newcomers half a step back, after grains or walls have changed
+  void changeAhead(); ///< before grains or walls change: keeps the full step as it is, `stale_` from here on
   const FullStep& fullStep() const;
   void evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) const;
   void stepOnce();
@@ -100,8 +100,9 @@ private:
   double wallRadius_ = 0; ///< [m] no grain is further from a moving wall's reference
   double dt_ = 0, skin_ = 0, meanDiameter_ = 0, smallestRadius_ = 0;
   std::int64_t step_ = 0, nextId_ = 0, rebuilds_ = 0;
-  bool stale_ = true; ///< list and forces are not those of the grains and walls now; velocities are at the full step
-  double drag_ = 0; ///< [1/s]
+  bool stale_ = true;                   ///< list and forces are not those of the grains and walls now
+  std::vector<std::int64_t> newcomers_; ///< ids of grains whose velocities are still those of the full step
+  double drag_ = 0;                     ///< [1/s]
   Flow flow_;
   GrainLives lives_;
   std::vector<LeftGrain> left_;

@@ -65,14 +65,15 @@ void ParticleLoop::crossing(double dt, bool keepHistory) {
   const PairList::Range pairs = list_.crossing();
   constexpr std::int64_t piece = ContactBlock::capacity;
   std::mutex merge;
-  parallel_.forRange((pairs.end - pairs.begin + piece - 1) / piece, 4, [&](std::int64_t first, std::int64_t last) {
-    PairForces::Scratch& scratch = scratchOfThread();
-    pairs_.evaluate({pairs.begin + first * piece, std::min(pairs.begin + last * piece, pairs.end)}, dt,
-                    keepHistory, scratch);
-    const std::lock_guard lock(merge);
-    events_.insert(events_.end(), scratch.events.begin(), scratch.events.end());
-    deepest_.take(scratch.deepest.share, scratch.deepest.idA, scratch.deepest.idB, scratch.deepest.wall);
-  });
+  parallel_.forRange(
+      (pairs.end - pairs.begin + piece - 1) / piece, 4, [&](std::int64_t first, std::int64_t last) {
+        PairForces::Scratch& scratch = scratchOfThread();
+        pairs_.evaluate({pairs.begin + first * piece, std::min(pairs.begin + last * piece, pairs.end)}, dt,
+                        keepHistory, scratch);
+        const std::lock_guard lock(merge);
+        events_.insert(events_.end(), scratch.events.begin(), scratch.events.end());
+        deepest_.take(scratch.deepest.share, scratch.deepest.idA, scratch.deepest.idB, scratch.deepest.wall);
+      });
 }
 
 ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double speedLimit,

@@ -41,7 +41,8 @@ public:
 
 private:
   void sumGroup(std::int64_t group, std::int64_t last, GroupSums& sums) const;
-  template <class Done> void sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done);
+  template <class Done>
+  void sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done);
   void crossing(double dt, bool keepHistory);
 
   GrainStore& grains_;

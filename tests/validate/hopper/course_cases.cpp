@@ -21,7 +21,7 @@ double at(const std::vector<double>& x, const std::vector<double>& y, double whe
   return y[k - 1] + part * (y[k] - y[k - 1]);
 }
 
-constexpr double window = 0.04;   ///< [s] over which a rate is taken
+constexpr double window = 0.04; ///< [s] over which a rate is taken
 /// The rate below this share of the slope ends the steady range, as in analysis::fitDischarge.
 constexpr double lastPart = 0.9;
 

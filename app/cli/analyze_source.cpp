@@ -1,0 +1,72 @@
+#include "app/cli/analyze_source.h"
+
+#include "analysis/grain_sizes.h"
+#include "sim/base/error.h"
+#include "sim/io/frame_segment.h"
+#include "sim/io/segment_names.h"
+#include "sim/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sandglass::cli {
+
+using namespace analysis;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string sceneTextOf(const fs::path& path) {
+  if (!fs::is_directory(path)) return SegmentReader(path).sceneText();
+  const auto segments = segmentFiles(path / "frames");
+  return segments.empty() ? "" : SegmentReader(segments.front()).sceneText();
+}
+
+bool gatesClosed(const Frame& frame) {
+  return std::all_of(frame.walls.begin(), frame.walls.end(), [](const FrameWall& w) { return w.active; });
+}
+
+} // namespace
+
+Source openSource(const std::string& text, bool several) {
+  Source source;
+  source.path = text;
+  source.frames = openFrames(text);
+  if (source.frames->size() == 0) throw InputError(fmt::format("{}: there are no frames yet", text));
+  if (const std::string scene = sceneTextOf(source.path); !scene.empty())
+    source.facts = factsOf(parseScene(scene, text + " (scene inside)"));
+  fs::path name = source.path;
+  if (!name.has_filename()) name = name.parent_path(); // "run/"
+  if (several) source.prefix = name.stem().string() + "_";
+  return source;
+}
+
+/// Gates open once, so closed frames come first.
+std::size_t settledFrame(const Source& source) {
+  std::size_t closed = 0, beyond = source.frames->size();
+  while (closed + 1 < beyond) {
+    const std::size_t middle = (closed + beyond) / 2;
+    (gatesClosed(*source.frames->load(middle)) ? closed : beyond) = middle;
+  }
+  return closed;
+}
+
+std::pair<std::size_t, std::size_t> framesFor(const Source& source, const AnalyzeOptions& options) {
+  if (!options.frames.empty()) return frameRange(options.frames, source.frames->size(), source.path.string());
+  const std::size_t settled = settledFrame(source);
+  return {settled, settled};
+}
+
+void stamp(Curve& curve, const Source& source, const Frame& frame) {
+  for (const auto& [key, value] : frame.provenance)
+    curve.provenance[key] = value;
+  curve.provenance["source"] = source.path.string();
+}
+
+double diameterFor(const AnalyzeOptions& options, const Frame& frame) {
+  return options.diameter.empty() ? meanDiameter(frame) : lengthOption("--diameter", options.diameter, 0);
+}
+
+} // namespace sandglass::cli
