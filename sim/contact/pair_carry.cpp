@@ -52,27 +52,31 @@ void PairCarrier::carry(std::int64_t i, const std::int32_t* partners, std::int64
 
 template <int fixedSize>
 void PairCarrier::carryRow(const Row& row, const std::int32_t* partners, std::int64_t count, std::int64_t p) {
-  constexpr std::int64_t lane = PairListing::lane;
-  const int size = fixedSize < 0 ? historySize_ : fixedSize;
+  constexpr std::uint64_t lane = PairListing::lane;
+  const std::uint64_t size = fixedSize < 0 ? historySize_ : fixedSize;
   double* const now = now_.history.data();
   const double* const past = pastHistory_;
+  const std::int32_t *const order = order_.data(), *const wrapped = wrapped_.data();
   std::uint8_t* const live = now_.live.empty() ? nullptr : now_.live.data();
   const std::uint8_t* const shiftOf = imaged_ ? now_.shiftOf.data() : nullptr;
+  const std::uint8_t* const pastShiftOf = past_.shiftOf.data();
+  const bool otherCodes = !sameCodes_;
   for (std::int64_t k = 0; k < count; ++k, ++p) {
     // Which pairs are new cannot be foretold, so there is no branch on it: they find the empty entry, and the
     // zeros behind the last old history.
-    const std::int32_t partner = order_[partners[k]];
+    const std::int32_t partner = order[partners[k]];
     const __m256i equal = _mm256_cmpeq_epi32(row.partners, _mm256_set1_epi32(partner));
     const unsigned matches = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
     std::int64_t old = row.entries[std::countr_zero(matches | 1u << PairListing::slotCount)] >> 1;
     bool unsure = (matches == 0) & row.full;
     if (shiftOf)
       unsure |= (matches != 0) &
-                (!sameCodes_ | (past_.shiftOf[old] != shiftOf[p]) | (wrapped_[partner] != row.wrapped));
+                (otherCodes | (pastShiftOf[old] != shiftOf[p]) | (wrapped[partner] != row.wrapped));
     if (unsure) old = find(row, matches, partner, p);
-    double* to = now + p / lane * lane * size + p % lane;
-    const double* from = past + old / lane * lane * size + old % lane;
-    for (int q = 0; q < size; ++q)
+    const auto at = static_cast<std::uint64_t>(p), was = static_cast<std::uint64_t>(old);
+    double* to = now + at / lane * lane * size + at % lane;
+    const double* from = past + was / lane * lane * size + was % lane;
+    for (std::uint64_t q = 0; q < size; ++q)
       to[q * lane] = from[q * lane];
     if (live) live[p] = past_.live[old];
   }

@@ -115,36 +115,39 @@ void PairSearch::openCell(std::size_t home, int z, std::int32_t firstGrain, Scra
   const std::size_t columns = scratch.columns.size();
   const std::size_t room = columns * (2 * codes_.reach[2] + 1) + 1;
   if (scratch.stretches.size() < room) scratch.stretches.resize(room);
+  const Column* const column = scratch.columns.data();
   Stretch* to = scratch.stretches.data();
-  scratch.most = scratch.furthest = 0;
+  // Kept in registers: stores to the stretches could change what stands in memory.
+  const int center = codes_.center();
+  std::int64_t most = 0;
+  std::int32_t furthest = 0;
   int shifted = 0;
   const auto add = [&](std::int32_t begin, std::int32_t end, int code) {
     *to = {begin, end, code};
     const bool holdsPartners = end > begin && end > firstGrain;
     to += holdsPartners;
-    scratch.most += holdsPartners ? end - begin : 0;
-    scratch.furthest = std::max(scratch.furthest, end);
-    shifted |= code ^ codes_.center();
+    most += end - begin;
+    furthest = std::max(furthest, end);
+    shifted |= code ^ center;
   };
   for (std::size_t c = 0; c < columns;) {
-    const int level = scratch.columns[c].level;
+    const int level = column[c].level;
     const CellGrid::Level& there = grid_.levels()[level];
     const Window w = window(grid_.levels()[home], there, z, 2, periodic);
     if (w.low >= 0 && w.high < there.count[2]) {
-      for (; c < columns && scratch.columns[c].level == level; ++c) {
-        const std::int32_t* cells = start + scratch.columns[c].firstCell;
-        add(cells[w.low], cells[w.high + 1], scratch.columns[c].code);
-      }
+      const std::int32_t *const low = start + w.low, *const high = start + w.high + 1;
+      for (; c < columns && column[c].level == level; ++c)
+        add(low[column[c].firstCell], high[column[c].firstCell], column[c].code);
       continue;
     }
-    for (; c < columns && scratch.columns[c].level == level; ++c) {
+    for (; c < columns && column[c].level == level; ++c) {
       Stretch* const before = to;
-      const std::int32_t* cells = start + scratch.columns[c].firstCell;
+      const std::int32_t* cells = start + column[c].firstCell;
       for (int from = w.low; from <= w.high;) {
         const int image = floorDivide(from, there.count[2]), first = image * there.count[2];
         const int high = std::min(w.high, first + there.count[2] - 1);
         if (codes_.holds(0, 0, image))
-          add(cells[from - first], cells[high - first + 1], scratch.columns[c].code + image);
+          add(cells[from - first], cells[high - first + 1], column[c].code + image);
         from = high + 1;
       }
       std::sort(before, to, [](const Stretch& s, const Stretch& t) { return s.begin < t.begin; });
@@ -152,6 +155,8 @@ void PairSearch::openCell(std::size_t home, int z, std::int32_t firstGrain, Scra
   }
   scratch.count = static_cast<int>(to - scratch.stretches.data());
   scratch.shifted = shifted != 0;
+  scratch.most = most;
+  scratch.furthest = furthest;
 }
 
 /// Calls visit(scratch, first, last) for the grains of each cell among first .. last - 1.
