@@ -3,6 +3,9 @@
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "sim/base/error.h"
+#ifdef SANDGLASS_VIS
+#include "vis/readers/vtp_mesh.h"
+#endif
 
 #include <cstdio>
 #include <exception>
@@ -17,6 +20,7 @@ int main(int argc, char** argv) {
   cli::addExplain(app, action);
   cli::addAnalyze(app, action);
 #ifdef SANDGLASS_VIS
+  vis::registerMeshReaders();
   cli::addRender(app, action);
 #endif
 

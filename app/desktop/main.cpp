@@ -5,6 +5,7 @@
 #include "app/desktop/screenshot.h"
 #include "app/desktop/style.h"
 #include "sim/base/error.h"
+#include "vis/readers/vtp_mesh.h"
 
 #include <CLI/CLI.hpp>
 #include <QApplication>
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   }
+  sandglass::vis::registerMeshReaders();
   try {
     return show(arguments, argc, argv);
   } catch (const sandglass::InputError& e) {

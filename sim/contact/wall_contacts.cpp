@@ -10,21 +10,38 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
                          Parallel& parallel) {
   const auto n = static_cast<std::int64_t>(grains.size());
   constexpr std::int64_t chunk = 1024;
-  std::vector<std::vector<Candidate>> found(static_cast<std::size_t>((n + chunk - 1) / chunk));
+  struct Found {
+    Candidate candidate;
+    Slack slack;
+  };
+  std::vector<Eigen::AlignedBox3d> bounds; // of walls at rest: most grains are far from a small wall
+  for (const SolverWall& wall : walls)
+    bounds.push_back(wall.shape->bounds());
+  std::vector<std::vector<Found>> found(static_cast<std::size_t>((n + chunk - 1) / chunk));
   parallel.forRange(static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t c = first; c < last; ++c)
       for (std::int64_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i)
         for (std::size_t w = 0; w < walls.size(); ++w) {
           if (!walls[w].active) continue;
+          const Vec3 x = grains.place[i].vec();
+          const double touching = grains.place[i].w + range,
+                       reach = touching + grains.listed[i].w + walls[w].allowance;
+          if (!walls[w].motion && bounds[w].squaredExteriorDistance(x) >= reach * reach) continue;
           WallShape::Touches touches;
-          walls[w].touches(grains.place[i].vec(),
-                           grains.place[i].w + range + grains.listed[i].w + walls[w].allowance, touches);
-          if (touches.count > 0)
-            found[c].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
+          walls[w].touches(x, reach, touches);
+          if (touches.count == 0) continue;
+          // The distance to a wall changes by no more than the way gone.
+          double slack = walls[w].motion || touches.count == slots ? 0.0 : touches.at[0].distance - touching;
+          for (int t = 1; t < touches.count; ++t)
+            slack = std::min(slack, touches.at[t].distance - touching);
+          // A little less than that, for round-off.
+          slack = std::max(0.0, slack - 1e-9 * touching);
+          found[c].push_back({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)},
+                              {x.x(), x.y(), x.z(), slack * slack}});
         }
   });
 
-  // Old candidates by (id, wall), for their histories.
+  // Contacts that there are, by (id, wall), for their histories.
   struct Key {
     std::int64_t id;
     std::int32_t wall;
@@ -32,22 +49,23 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
     bool operator<(const Key& o) const { return id != o.id ? id < o.id : wall < o.wall; }
   };
   std::vector<Key> old;
-  old.reserve(candidates_.size());
   for (std::size_t k = 0; k < candidates_.size(); ++k)
-    old.push_back({ids_[k], candidates_[k].wall, k});
+    if (feature_[k * slots] >= 0) old.push_back({ids_[k], candidates_[k].wall, k});
   std::sort(old.begin(), old.end());
   const std::vector<std::int32_t> oldFeature = std::move(feature_);
   const std::vector<double> oldResult = std::move(result_); // for who asks before the next step
   const std::vector<double> oldHistory = std::move(history_);
 
   candidates_.clear();
+  slack_.clear();
   ids_.clear();
   offsets_.assign(static_cast<std::size_t>(n) + 1, 0);
   for (const auto& f : found)
-    for (const Candidate& c : f) {
-      candidates_.push_back(c);
-      ids_.push_back(grains.id[c.grain]);
-      ++offsets_[c.grain + 1];
+    for (const auto& [candidate, slack] : f) {
+      candidates_.push_back(candidate);
+      slack_.push_back(slack);
+      ids_.push_back(grains.id[candidate.grain]);
+      ++offsets_[candidate.grain + 1];
     }
   for (std::int64_t i = 0; i < n; ++i)
     offsets_[i + 1] += offsets_[i];
@@ -72,7 +90,7 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
 int WallContacts::touches(const GrainStore& grains, const std::vector<SolverWall>& walls,
                           std::size_t candidate, double reach, WallShape::Touches& out) const {
   const Candidate& c = candidates_[candidate];
-  if (!walls[c.wall].active) return 0;
+  if (!walls[c.wall].active || parted(grains, candidate)) return 0;
   const Quad& place = grains.place[c.grain];
   walls[c.wall].touches(place.vec(), place.w + reach, out);
   return out.count;
@@ -179,6 +197,7 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
           block.size = 0;
         };
         for (std::int64_t k = first; k < last; ++k) {
+          if (feature_[k * slots] < 0 && parted(grains, k)) continue; // nothing then, nothing now
           WallShape::Touches now;
           const int count = touches(grains, walls, k, laws_.range(), now);
           std::fill_n(result_.data() + k * 6, 6, 0.0);

@@ -58,7 +58,19 @@ private:
     std::int32_t grain = 0;
     std::int32_t wall = 0;
   };
-  /// Contacts of one candidate, each with the row of history that it goes on with.
+  /// Where a grain was when it was listed, and the square of the way that it can go from there without
+  /// touching the wall: most grains near a wall do not touch it, and need no more than a comparison. 0 for
+  /// moving walls.
+  struct Slack {
+    double x = 0, y = 0, z = 0, squared = 0;
+  };
+  bool parted(const GrainStore& grains, std::size_t candidate) const {
+    const Slack& s = slack_[candidate];
+    const Quad& now = grains.place[candidates_[candidate].grain];
+    const double dx = now.x - s.x, dy = now.y - s.y, dz = now.z - s.z;
+    return dx * dx + dy * dy + dz * dz < s.squared;
+  }
+  /// Contacts of one candidate, in ascending order of feature.
   int touches(const GrainStore& grains, const std::vector<SolverWall>& walls, std::size_t candidate,
               double reach, WallShape::Touches& out) const;
   bool counted(std::size_t candidate, const std::vector<SolverWall>& walls) const {
@@ -72,6 +84,7 @@ private:
 
   const LawStack& laws_;
   std::vector<Candidate> candidates_;
+  std::vector<Slack> slack_;          ///< per candidate
   std::vector<std::int32_t> offsets_; ///< candidates of each grain
   std::vector<std::int64_t> ids_;     ///< id of each candidate's grain, for carrying
   std::vector<std::int32_t> feature_; ///< slots per candidate; -1: empty

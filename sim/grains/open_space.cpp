@@ -1,5 +1,7 @@
 #include "sim/grains/open_space.h"
 
+#include "sim/walls/posed_shape.h"
+#include "sim/walls/wall_motion.h"
 #include "sim/walls/wall_registry.h"
 
 #include <algorithm>
@@ -24,7 +26,11 @@ OpenSpace::OpenSpace(const Scene& scene, const std::string& stage)
   for (const auto& wall : scene.walls) {
     if (removedBy(scene, stage, wall.name)) continue;
     for (const auto& kind : wallKinds())
-      if (kind.name == wall.shape.kind) walls_.push_back({wall.name, kind.make(wall.shape.parameters)});
+      if (kind.name == wall.shape.kind) {
+        const auto motion = makeMotion(wall.motion.kind, wall.motion.parameters);
+        const auto shape = kind.make(wall.shape.parameters);
+        walls_.push_back({wall.name, motion ? posed(shape, motion->pose(0.0)) : shape});
+      }
   }
 }
 

@@ -13,7 +13,7 @@ namespace sandglass {
 
 class OpenSpace {
 public:
-  /// The walls that stand once `stage` has begun.
+  /// The walls that stand once `stage` has begun, those with a motion where it begins.
   OpenSpace(const Scene& scene, const std::string& stage);
 
   /// Whether a sphere there touches no wall and has not left. A part of `mayOverlap` of its radius may stick

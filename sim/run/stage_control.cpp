@@ -1,5 +1,6 @@
 #include "sim/run/stage_control.h"
 
+#include "sim/base/error.h"
 #include "sim/run/bytes.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ void StageControl::begin() {
   const double before = solver_.energies().total();
   const auto grains = placeGrains(scene_, stage.name, solver_.nextId(), solver_.present(), log_);
   if (!grains.empty()) {
+    checkMovedWalls(grains);
     solver_.add(grains);
     solver_.advance(0);
     watchdog_.entered(grains, solver_.energies().total() - before);
@@ -50,6 +52,22 @@ void StageControl::begin() {
   report(log_, LogLevel::info,
          fmt::format("stage '{}' begins at {:.6g} s with {} grains ({} placed now){}{}", stage.name,
                      solver_.time(), solver_.grains(), grains.size(), rain_ ? "; it rains" : "", walls));
+}
+
+void StageControl::checkMovedWalls(const std::vector<GrainSeed>& grains) const {
+  for (const FrameWall& wall : solver_.walls()) {
+    if (!wall.moving || !wall.active) continue;
+    for (const GrainSeed& grain : grains) {
+      WallShape::Touches touches;
+      wall.shape->touches(grain.position, 0.5 * grain.radius, touches);
+      if (touches.count > 0 || wall.shape->signedDistance(grain.position) < 0.0)
+        throw InputError(
+            fmt::format("at {:.6g} s the stage '{}' would place grain {} in or behind the wall '{}', which "
+                        "has moved since the start; fill elsewhere, or before it moves, or let the grains "
+                        "rain, which looks where walls are",
+                        solver_.time(), scene_.stages[stage_].name, grain.id, wall.name));
+    }
+  }
 }
 
 std::int64_t StageControl::stageSteps() const {

@@ -46,6 +46,8 @@ public:
   void load(const std::vector<std::byte>& bytes);
 
 private:
+  /// Fillings look at walls where the scene puts them. Throws InputError for a grain that one has moved onto.
+  void checkMovedWalls(const std::vector<GrainSeed>& grains) const;
   std::int64_t stageSteps() const; ///< since the stage began
   void bringIn();                  ///< rain and grains put back
   bool ended(bool longLook) const;

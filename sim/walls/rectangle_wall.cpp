@@ -35,38 +35,43 @@ void addTriangles(const Rectangle& r, TriangleMesh& mesh, double largest) {
     mesh.edges.push_back({first + k, first + (k + 1) % 4});
 }
 
-/// Rectangles that together form one wall; features: face k, or edges and corners of face k as 64 + k.
+/// At most six rectangles that together form one wall; features: face k, or edges and corners of face k as 64
+/// + k.
 class RectangleWall : public WallShape {
 public:
   explicit RectangleWall(std::vector<Rectangle> faces) : faces_(std::move(faces)) {}
 
   void touches(const Vec3& centre, double reach, Touches& out) const override {
+    // Faces whose plane is out of reach are out of reach, and so are their edges.
+    struct Near {
+      int face;
+      bool inside;
+      Vec3 point;
+    };
+    std::array<Near, 6> near; // a box has six faces
+    int count = 0;
     for (std::size_t k = 0; k < faces_.size(); ++k) {
-      bool inside = false;
-      const Vec3 point = faces_[k].nearest(centre, inside);
-      if (inside) add(centre, point, static_cast<int>(k), reach, out);
+      if (std::abs((centre - faces_[k].centre).dot(faces_[k].normal)) >= reach) continue;
+      Near& face = near[count++];
+      face.face = static_cast<int>(k);
+      face.point = faces_[k].nearest(centre, face.inside);
+      if (face.inside) add(centre, face.point, face.face, reach, out);
     }
-    // An edge shared by two faces has the same nearest point for both and counts once.
-    std::array<Vec3, maxTouches> seen;
-    int known = 0;
-    for (std::size_t k = 0; k < faces_.size(); ++k) {
-      bool inside = false;
-      const Vec3 point = faces_[k].nearest(centre, inside);
-      if (inside || known == maxTouches) continue;
+    // An edge shared by two faces has the same nearest point for both and counts once, and not at all where
+    // it belongs to another face whose interior is nearer: that face is the contact.
+    for (int k = 0; k < count; ++k) {
+      if (near[k].inside) continue;
       bool covered = false;
-      for (int s = 0; s < known; ++s)
-        covered = covered || (seen[s] - point).squaredNorm() < 1e-24;
-      for (std::size_t other = 0; other < faces_.size() && !covered; ++other) {
-        // The edge belongs to another face whose interior is nearer: that face is the contact.
-        bool insideOther = false;
-        faces_[other].nearest(centre, insideOther);
-        bool onOther = false;
-        const Vec3 q = faces_[other].nearest(point, onOther);
-        covered = other != k && insideOther && (q - point).squaredNorm() < 1e-24;
+      for (int other = 0; other < count && !covered; ++other) {
+        if (near[other].inside) {
+          bool onOther = false;
+          const Vec3 q = faces_[near[other].face].nearest(near[k].point, onOther);
+          covered = (q - near[k].point).squaredNorm() < 1e-24;
+        } else if (other < k) {
+          covered = (near[other].point - near[k].point).squaredNorm() < 1e-24;
+        }
       }
-      if (covered) continue;
-      seen[known++] = point;
-      add(centre, point, 64 + static_cast<int>(k), reach, out);
+      if (!covered) add(centre, near[k].point, 64 + near[k].face, reach, out);
     }
   }
 

@@ -103,7 +103,7 @@ TEST_CASE("what analyze refuses, it refuses with a sentence", "[analyze]") {
       {"--gr --limit 'y>1 m'", "no frame with enough grains in its region"},
       {"--discharge --range 0.5:0.1", "--range is '0.5:0.1', but must be two ascending shares"},
       {"--discharge --probe nosuch", "nosuch"},
-      {"--beverloo", "at least two different outlets"},
+      {"--beverloo --range 0.05:0.95", "at least two different outlets"},
       {"--contacts", "has no contacts: set contacts = true"},
       {"--residence", "there is no discharged.csv: give an outlet of the scene record = true"},
       {"--heap", "but a heap angle needs 8 on each side"},

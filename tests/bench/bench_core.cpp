@@ -80,15 +80,35 @@ double contactsOf(const CoreCase& c) {
   return static_cast<double>(solver->frame()->contacts.size());
 }
 
+/// Another setting of ours that takes its turn too: a label for the column `precision`, and a key of the
+/// scene.
+struct Variant {
+  std::string label, override;
+};
+
+/// "mixed:accuracy.precision=mixed"
+Variant parseVariant(const std::string& text) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos || text.find('=', colon) == std::string::npos)
+    throw InputError(fmt::format("--variant is LABEL:KEY=VALUE, not '{}'", text));
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+CoreCase withVariant(const CoreCase& c, const Variant& variant) {
+  CoreCase changed = c;
+  changed.scene = parseScene(writeScene(c.scene), "bench", {variant.override});
+  return changed;
+}
+
 /// Set-up (list, first forces) is not timed, as it is not in the loop time of LAMMPS.
-Timing runOurs(const CoreCase& c, int threads, double contacts, int round) {
+Timing runOurs(const CoreCase& c, const std::string& label, int threads, double contacts, int round) {
   const auto solver = solverAt(c, c.scene, threads);
   solver->advance(0);
   Timing t;
   t.benchCase = c.name;
   t.program = "sandglass";
   t.threads = threads;
-  t.precision = "double";
+  t.precision = label;
   t.round = round;
   t.steps = c.steps;
   t.grains = static_cast<std::int64_t>(solver->grains());
@@ -147,19 +167,21 @@ Timing notInstalled(const std::string& name, const std::string& program) {
   return t;
 }
 
-/// Rows of another program whose energy differs from ours ran another case.
+/// Rows of another program or setting whose energy differs from ours in double ran another case.
 void compareEnergies(std::vector<Timing>& timings, const std::string& name) {
+  const auto reference = [](const Timing& t) { return t.program == "sandglass" && t.precision == "double"; };
   double ours = 0;
   for (const Timing& t : timings)
-    if (t.benchCase == name && t.program == "sandglass") ours = t.kineticEnergy;
+    if (t.benchCase == name && reference(t)) ours = t.kineticEnergy;
   for (Timing& t : timings)
-    if (t.benchCase == name && t.program != "sandglass" && t.wallSeconds > 0) {
+    if (t.benchCase == name && !reference(t) && t.wallSeconds > 0) {
       const double off = std::abs(t.kineticEnergy / ours - 1);
       if (!(off <= energyTolerance)) t.check = fmt::format("void: kinetic energy off by {:.2g}", off);
     }
 }
 
-void measure(const CoreCase& c, int rounds, const std::vector<Peer>& others, std::vector<Timing>& timings) {
+void measure(const CoreCase& c, int rounds, const std::vector<Peer>& others,
+             const std::vector<Variant>& variants, std::vector<Timing>& timings) {
   const double contacts = contactsOf(c);
   std::vector<Peer> taking;
   for (const Peer& p : others)
@@ -169,19 +191,26 @@ void measure(const CoreCase& c, int rounds, const std::vector<Peer>& others, std
     scratch.emplace();
     peers::writeLammpsData(scratch->path() / "grains.data", c.scene, c.grains);
   }
-  const int runners = 1 + static_cast<int>(taking.size());
+  std::vector<CoreCase> ours{c};
+  std::vector<std::string> labels{"double"};
+  if (!c.lammpsDeck.empty()) // where there is an energy to compare
+    for (const Variant& v : variants) {
+      ours.push_back(withVariant(c, v));
+      labels.push_back(v.label);
+    }
+  const int own = static_cast<int>(ours.size()), runners = own + static_cast<int>(taking.size());
   for (int round = 1; round <= rounds; ++round)
     for (const int threads : {1, 2})
       for (int k = 0; k < runners; ++k) {
         // The order turns round from round to round, so that a drift of the machine favours nobody.
         const int who = round % 2 ? k : runners - 1 - k;
-        timings.push_back(who == 0 ? runOurs(c, threads, contacts, round)
-                                   : runPeer(c, taking[who - 1], scratch->path(), threads, round));
+        timings.push_back(who < own ? runOurs(ours[who], labels[who], threads, contacts, round)
+                                    : runPeer(c, taking[who - own], scratch->path(), threads, round));
         const Timing& last = timings.back();
-        std::cerr << fmt::format("{} round {}/{}, {} x {}: {:.2f} million grain-steps/s\n", c.name, round,
-                                 rounds, threads, last.program, last.rate() / 1e6);
+        std::cerr << fmt::format("{} round {}/{}, {} x {} {}: {:.2f} million grain-steps/s\n", c.name, round,
+                                 rounds, threads, last.program, last.precision, last.rate() / 1e6);
       }
-  if (!taking.empty()) compareEnergies(timings, c.name);
+  if (runners > 1) compareEnergies(timings, c.name);
 }
 
 void write(const std::string& file, const std::string& text) {
@@ -193,12 +222,13 @@ void write(const std::string& file, const std::string& text) {
 int main(int argc, char** argv) {
   CLI::App app{"speed of the contact core"};
   std::string csvFile, tableFile;
-  std::vector<std::string> cases;
+  std::vector<std::string> cases, variantTexts;
   bool quick = false, alone = false;
   int rounds = 5;
   app.add_option("--csv", csvFile, "every round of every case");
   app.add_option("--table", tableFile, "medians, as Markdown");
   app.add_option("--case", cases, "only these cases");
+  app.add_option("--variant", variantTexts, "LABEL:KEY=VALUE, a setting of ours that takes its turn too");
   app.add_option("--rounds", rounds, "how often everybody takes a turn")->check(CLI::Range(1, 100));
   app.add_flag("--quick", quick, "small beds, one round: shows that the bench works");
   app.add_flag("--alone", alone, "without other programs");
@@ -206,6 +236,9 @@ int main(int argc, char** argv) {
   if (quick) rounds = 1;
   if (cases.empty()) cases = coreCaseNames();
   try {
+    std::vector<Variant> variants;
+    for (const std::string& text : variantTexts)
+      variants.push_back(parseVariant(text));
     std::vector<Peer> present, missing;
     if (!alone)
       for (const Peer& p : allPeers)
@@ -215,7 +248,7 @@ int main(int argc, char** argv) {
     for (const std::string& name : cases) {
       std::cerr << name << ": making its grains\n";
       const CoreCase c = makeCoreCase(name, quick);
-      measure(c, rounds, present, timings);
+      measure(c, rounds, present, variants, timings);
       for (const Peer& p : missing)
         if (!(c.*p.deck).empty()) timings.push_back(notInstalled(name, p.name));
       write(csvFile, csv(timings)); // as it grows: a long bench may be stopped

@@ -119,3 +119,39 @@ TEST_CASE("sample hopper_fed: a feed hopper keeps the flow going", "[samples]") 
   const auto& life = run.last->scalar(quantity::life);
   CHECK(std::count_if(life.begin(), life.end(), [](double l) { return l > 0; }) > 100);
 }
+
+TEST_CASE("sample rotating_drum: the drum's torque is what its power and its rate of turning say",
+          "[samples]") {
+  const Outcome run = runQuickly("rotating_drum");
+  CHECK(run.summary.grains == 240);
+  const double rate = 30 * 2 * 3.14159265358979323846 / 60;
+  double weight = 0, work = 0, before = 0, turned = 0;
+  int samples = 0;
+  for (const auto& s : run.samples) {
+    if (s.probe != "drum") continue;
+    const auto& v = s.values;
+    if (s.time < 0.1) { // at rest
+      CHECK(v.at("power") == 0);
+      CHECK(v.at("work") == 0);
+    }
+    if (s.time < 0.105) continue;
+    // Power of the drum on the grains is minus their torque on it times its spin, along the axis y.
+    CHECK(v.at("power") == Approx(-v.at("torque.y") * rate).epsilon(1e-9).margin(1e-15));
+    CHECK(v.at("collisions") >= before);
+    before = v.at("collisions");
+    weight -= v.at("force.z");
+    work = v.at("work");
+    turned = rate * (s.time - 0.1);
+    ++samples;
+  }
+  REQUIRE(samples > 10);
+  CHECK(before > 240);
+  CHECK(work > 0);
+  // The bed is dragged along, so the work is at most that of full friction at the radius of the drum.
+  CHECK(work < 0.4 * 2 * weight / samples * 0.04 * turned);
+  const FrameWall& lifter = run.last->walls[1];
+  CHECK(lifter.moving);
+  // Turned by 18 degrees about y: from the right downwards.
+  const double angle = turned, r = 0.03;
+  CHECK(lifter.shape->bounds().max().z() == Approx(-r * std::sin(angle)).epsilon(0.02));
+}
