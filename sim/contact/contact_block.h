@@ -46,11 +46,13 @@ using ContactBlockSingle = ContactBlockOf<float>;
 
 /// Sets what the laws add to back to zero; couples only where somebody reads them.
 template <class Real> inline void clearForces(ContactBlockOf<Real>& b, bool couples) {
-  for (int i = 0; i < b.size; ++i)
-    b.normalForce[i] = b.contactForce[i] = b.stiffness[i] = b.damping[i] = b.ftx[i] = b.fty[i] = b.ftz[i] = 0;
-  if (couples)
-    for (int i = 0; i < b.size; ++i)
-      b.mx[i] = b.my[i] = b.mz[i] = 0;
+  const auto clear = [](auto& column) {
+    for (auto& value : column)
+      value = 0;
+  };
+  clear(b.normalForce), clear(b.contactForce), clear(b.stiffness), clear(b.damping);
+  clear(b.ftx), clear(b.fty), clear(b.ftz);
+  if (couples) clear(b.mx), clear(b.my), clear(b.mz);
 }
 
 enum ContactEvent : std::uint8_t { noEvent = 0, birthEvent = 1, deathEvent = 2 };

@@ -101,10 +101,11 @@ void PairForces::leaveRange(std::int64_t first, const double (*before)[ContactBl
 
 void PairForces::reportOverlaps(std::int64_t first, Scratch& scratch) const {
   const ContactBlock& b = scratch.block;
-  double deepest = 0.0;
-  for (int c = 0; c < b.size; ++c)
-    deepest = b.overlap[c] > deepest ? b.overlap[c] : deepest;
-  if (deepest <= overlapLength_) return;
+  double deepest[8] = {};
+  for (int c = 0; c < b.size; c += 8)
+    for (int l = 0; l < 8; ++l)
+      deepest[l] = b.overlap[c + l] > deepest[l] ? b.overlap[c + l] : deepest[l];
+  if (*std::max_element(deepest, deepest + 8) <= overlapLength_) return;
   for (int c = 0; c < b.size; ++c) {
     const auto [i, j] = list_->pairs()[first + c];
     const double share = b.overlap[c] / std::min(grains_->place[i].w, grains_->place[j].w);

@@ -34,7 +34,7 @@ struct DeepestOverlap {
 class PairForces {
 public:
   /// What one thread needs.
-  struct Scratch {
+  struct Scratch { // all zero at first: no lane is ever uninitialised
     ContactBlock block;
     PairColumns columns;
     std::vector<PairEvent> events;

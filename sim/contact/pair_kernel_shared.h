@@ -5,6 +5,10 @@
 #include "sim/contact/law_columns.h"
 #include "sim/contact/pair_kernel.h"
 
+/// Over all lanes, also those behind the last contact, whose values nobody reads: loops of fixed length need no
+/// remainder.
+#define LANES(c) _Pragma("GCC ivdep") for (int c = 0; c < ContactBlock::capacity; ++c)
+
 namespace sandglass {
 
 namespace {
@@ -13,8 +17,7 @@ namespace {
 /// normal, overlap and relative motion at the contact.
 template <bool turning, class Real>
 inline void finishGeometry(ContactBlockOf<Real>& b, PairColumnsOf<Real>& p, bool radiusArm) {
-  const int size = b.size;
-  for (int c = 0; c < size; ++c) {
+  LANES(c) {
     const Real x = b.nx[c], y = b.ny[c], z = b.nz[c];
     const Real d = __builtin_sqrt(x * x + y * y + z * z);
     const Real inverse = 1 / d;
@@ -24,7 +27,8 @@ inline void finishGeometry(ContactBlockOf<Real>& b, PairColumnsOf<Real>& p, bool
     b.nx[c] = nx;
     b.ny[c] = ny;
     b.nz[c] = nz;
-    b.overlap[c] = p.sum[c] - d;
+    const Real overlap = p.sum[c] - d;
+    b.overlap[c] = overlap;
     b.vn[c] = vn;
     b.vtx[c] = dvx - vn * nx;
     b.vty[c] = dvy - vn * ny;
@@ -34,12 +38,10 @@ inline void finishGeometry(ContactBlockOf<Real>& b, PairColumnsOf<Real>& p, bool
   if constexpr (turning) {
     // Contact arms over radii: they add up to the distance, so angular momentum is kept.
     if (radiusArm)
-      for (int c = 0; c < size; ++c)
-        p.arm[c] = 1;
+      LANES(c) p.arm[c] = 1;
     else
-      for (int c = 0; c < size; ++c)
-        p.arm[c] = p.arm[c] / p.sum[c];
-    for (int c = 0; c < size; ++c) { // slip: minus (arm_a w_a + arm_b w_b) x n
+      LANES(c) p.arm[c] = p.arm[c] / p.sum[c];
+    LANES(c) { // slip: minus (arm_a w_a + arm_b w_b) x n
       const Real wx = p.rollX[c] * p.arm[c], wy = p.rollY[c] * p.arm[c], wz = p.rollZ[c] * p.arm[c];
       b.vtx[c] -= wy * b.nz[c] - wz * b.ny[c];
       b.vty[c] -= wz * b.nx[c] - wx * b.nz[c];
@@ -102,13 +104,13 @@ struct OutputColumns {
 };
 
 inline void outputs(const ContactBlock& b, const PairColumns& p, bool turning, OutputColumns& o) {
-  for (int c = 0; c < b.size; ++c) {
+  LANES(c) {
     o.fx[c] = b.normalForce[c] * b.nx[c] + b.ftx[c];
     o.fy[c] = b.normalForce[c] * b.ny[c] + b.fty[c];
     o.fz[c] = b.normalForce[c] * b.nz[c] + b.ftz[c];
   }
   if (turning)
-    for (int c = 0; c < b.size; ++c) {
+    LANES(c) {
       o.tx[c] = p.arm[c] * (b.nz[c] * b.fty[c] - b.ny[c] * b.ftz[c]);
       o.ty[c] = p.arm[c] * (b.nx[c] * b.ftz[c] - b.nz[c] * b.ftx[c]);
       o.tz[c] = p.arm[c] * (b.ny[c] * b.ftx[c] - b.nx[c] * b.fty[c]);

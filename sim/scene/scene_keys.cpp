@@ -251,7 +251,7 @@ const Keys& accuracyKeys() {
                           .type = number,
                           .unit = "1",
                           .description = "of neighbour lists, as a share of the mean diameter",
-                          .fallback = 0.15,
+                          .fallback = 0.02,
                           .minimum = 0,
                           .maximum = 2,
                           .openMinimum = true},

@@ -39,7 +39,7 @@ public:
   template <class Real, class Table>
   SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
     Real *ax = b.history[first], *ay = b.history[first + 1], *az = b.history[first + 2];
-    for (int i = 0; i < b.size; ++i) {
+    SANDGLASS_CONTACTS(i) {
       const auto c = table(i);
       const Real twist = b.wx[i] * b.nx[i] + b.wy[i] * b.ny[i] + b.wz[i] * b.nz[i];
       const Real wx = b.wx[i] - twist * b.nx[i], wy = b.wy[i] - twist * b.ny[i],

@@ -33,7 +33,7 @@ public:
 
   template <class Real, class Table>
   SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
-    for (int i = 0; i < b.size; ++i) {
+    SANDGLASS_CONTACTS(i) {
       const auto c = table(i);
       const Real x = std::max(b.overlap[i], Real(0));
       const Real S = 2 * c.modulus * std::sqrt(b.effectiveRadius[i] * x);

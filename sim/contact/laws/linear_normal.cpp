@@ -85,7 +85,7 @@ private:
 
   template <bool constantDamping, class Real, class Table>
   SANDGLASS_LOOP static void spring(ContactBlockOf<Real>& b, const Table& table) {
-    for (int i = 0; i < b.size; ++i) {
+    SANDGLASS_CONTACTS(i) {
       const auto c = table(i);
       Real gamma = c.gamma;
       if constexpr (!constantDamping) gamma = damping(c, b.effectiveMass[i]);

@@ -77,7 +77,7 @@ private:
   template <bool project, bool masses, class Real, class Table>
   SANDGLASS_LOOP static void spring(ContactBlockOf<Real>& b, int first, const Table& table) {
     Real *sx = b.history[first], *sy = b.history[first + 1], *sz = b.history[first + 2];
-    for (int i = 0; i < b.size; ++i) {
+    SANDGLASS_CONTACTS(i) {
       const auto c = table(i);
       const Real along = sx[i] * b.nx[i] + sy[i] * b.ny[i] + sz[i] * b.nz[i];
       Real x = sx[i] - along * b.nx[i], y = sy[i] - along * b.ny[i], z = sz[i] - along * b.nz[i];

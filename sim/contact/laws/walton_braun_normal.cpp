@@ -60,7 +60,7 @@ public:
   template <class Real, class Table>
   SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
     Real* residual = b.history[first];
-    for (int i = 0; i < b.size; ++i) {
+    SANDGLASS_CONTACTS(i) {
       const auto c = table(i);
       const Real x = std::max(b.overlap[i], Real(0));
       const Real kept = std::max(residual[i], c.residual * x);

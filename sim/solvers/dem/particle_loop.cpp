@@ -12,7 +12,7 @@ constexpr int group = PairList::group;
 
 /// Blocks are large; one set a thread, kept.
 PairForces::Scratch& scratchOfThread() {
-  thread_local PairForces::Scratch scratch;
+  thread_local PairForces::Scratch scratch{};
   scratch.events.clear();
   scratch.deepest = {};
   return scratch;
