@@ -1,5 +1,6 @@
 #include "vis/gl/vtk_messages.h"
 
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
@@ -33,6 +34,7 @@ vtkStandardNewMacro(Keeper);
 
 void keepVtkMessages() {
   static const bool once = [] {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // readers report through it as well
     vtkOutputWindow::SetInstance(vtkSmartPointer<Keeper>::New());
     return true;
   }();
