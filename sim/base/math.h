@@ -19,7 +19,7 @@ namespace sandglass {
   double r = std::bit_cast<double>((third + 715094163ull) << 32);
   for (int k = 0; k < 2; ++k) {
     const double cube = r * r * r;
-    r = r * (cube + 2.0 * y) / (2.0 * cube + y);
+    r = r * ((cube + 2.0 * y) / (2.0 * cube + y));
   }
   r = r - (r * r * r - y) / (3.0 * r * r);
   return x > 0.0 ? (tiny ? r * 0x1p-36 : r) : 0.0;
