@@ -51,8 +51,8 @@ void printParts(const Scene& scene) {
                s.material, 1e3 * range.smallest, 1e3 * range.largest, 1e6 * range.meanMass);
   }
   for (const auto& c : scene.contacts)
-    fmt::print("  contact    {} on {}: {} normal, {} tangential, {} rolling\n", c.first, c.second,
-               c.normal.kind, c.tangential.kind, c.rolling.kind);
+    fmt::print("  contact    {} on {}: {} normal, {} tangential, {} rolling, {} torsion\n", c.first, c.second,
+               c.normal.kind, c.tangential.kind, c.rolling.kind, c.torsion.kind);
   for (const auto& w : scene.walls)
     fmt::print("  wall       {}: {} of {}{}\n", w.name, w.shape.kind, w.material,
                w.motion.kind.empty() ? "" : ", moves: " + w.motion.kind);

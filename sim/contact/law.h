@@ -22,6 +22,8 @@ struct PairType {
   /// [kg] reduced mass that all its contacts have exactly, with walls or among grains of one size; 0 when
   /// they differ.
   double uniformMass = 0;
+  double largestEffectiveRadius = 0; ///< [m] of two of the largest grains, or of one at a wall
+  bool swapped = false;              ///< the scene names the two materials in the other order
   double effectiveYoungsModulus = 0; ///< [Pa], 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; 0 when not given
   double effectiveShearModulus = 0;  ///< [Pa], 1/G* = (2-nu1)/G1 + (2-nu2)/G2
 };

@@ -6,8 +6,24 @@ namespace sandglass {
 
 const std::vector<LawKind>& lawKinds() {
   static const std::vector<LawKind> kinds{
-      linearNormalLaw(),     waltonBraunNormalLaw(), hertzNormalLaw(), noTangentialLaw(),
-      springTangentialLaw(), mindlinTangentialLaw(), noRollingLaw(),   elasticPlasticRollingLaw(),
+      linearNormalLaw(),
+      waltonBraunNormalLaw(),
+      hertzNormalLaw(),
+      dmtNormalLaw(),
+      jkrNormalLaw(),
+      noTangentialLaw(),
+      viscousTangentialLaw(),
+      springTangentialLaw(),
+      mindlinTangentialLaw(),
+      waltonTangentialLaw(),
+      noRollingLaw(),
+      constantTorqueRollingLaw(),
+      elasticPlasticRollingLaw(),
+      noTorsionLaw(),
+      constantTorqueTorsionLaw(),
+      elasticPlasticTorsionLaw(),
+      vanDerWaalsLaw(),
+      coulombLaw(),
   };
   return kinds;
 }

@@ -14,7 +14,7 @@ class Law;
 struct LawContext;
 
 /// Where in `[[contact]]` a law stands.
-enum class LawRole { normal, tangential, rolling, gap };
+enum class LawRole { normal, tangential, rolling, torsion, gap };
 
 struct LawKind {
   std::string name;

@@ -32,6 +32,19 @@ const ContactSpec* findContact(const Scene& scene, const std::string& a, const s
   return nullptr;
 }
 
+/// Of the grains of a material; 0 for a wall's material.
+double largestRadius(const Scene& scene, const std::string& material) {
+  double largest = 0.0;
+  for (const Species& s : scene.species)
+    if (s.material == material) largest = std::max(largest, 0.5 * sizeRange(scene, s).largest);
+  if (largest > 0.0)
+    for (const FillSpec& fill : scene.fills) // lists may give grains a size of their own
+      if (fill.how.parameters.has("diameters"))
+        for (const double d : fill.how.parameters.numbers("diameters"))
+          largest = std::max(largest, 0.5 * d);
+  return largest;
+}
+
 /// Mass that every grain of a material has, computed as the solver does; 0 when they differ or are none.
 double oneMass(const Scene& scene, const Material& material) {
   double mass = 0.0;
@@ -66,6 +79,8 @@ PairType pairType(const Scene& scene, const Material& a, const Material& b) {
   PairType t;
   const double ma = meanMass(scene, a.name), mb = meanMass(scene, b.name);
   t.used = ma > 0.0 || mb > 0.0;
+  const double ra = largestRadius(scene, a.name), rb = largestRadius(scene, b.name);
+  t.largestEffectiveRadius = ra > 0.0 && rb > 0.0 ? ra * rb / (ra + rb) : std::max(ra, rb);
   t.referenceMass = ma > 0.0 && mb > 0.0 ? ma * mb / (ma + mb) : std::max(ma, mb);
   if (a.youngsModulus && b.youngsModulus && a.poissonRatio && b.poissonRatio) {
     const auto inverse = [](const Material& m) {
@@ -81,13 +96,21 @@ PairType pairType(const Scene& scene, const Material& a, const Material& b) {
 }
 
 const Choice& choice(const ContactSpec& contact, LawRole role) {
-  return role == LawRole::normal       ? contact.normal
-         : role == LawRole::tangential ? contact.tangential
-                                       : contact.rolling;
+  switch (role) {
+  case LawRole::normal:
+    return contact.normal;
+  case LawRole::tangential:
+    return contact.tangential;
+  case LawRole::rolling:
+    return contact.rolling;
+  default:
+    return contact.torsion;
+  }
 }
 
 const char* roleName(LawRole role) {
-  return role == LawRole::normal ? "normal" : role == LawRole::tangential ? "tangential" : "rolling";
+  static constexpr const char* names[] = {"normal", "tangential", "rolling", "torsion", "gap"};
+  return names[static_cast<int>(role)];
 }
 
 } // namespace
@@ -104,30 +127,10 @@ LawStack::LawStack(const Scene& scene, bool anySize) : materials_(static_cast<in
       context_.types.push_back(pairType(scene, a, b));
       if (!anySize) context_.types.back().uniformMass = uniformMass(scene, a, b);
       context_.types.back().used = context_.types.back().used && specs.back();
+      context_.types.back().swapped = specs.back() && specs.back()->first != a.name;
     }
-  for (const LawRole role : {LawRole::normal, LawRole::tangential, LawRole::rolling}) {
-    const LawKind* kind = nullptr;
-    LawContext context = context_;
-    for (std::size_t k = 0; k < specs.size(); ++k) {
-      if (!context.types[k].used) continue;
-      const Choice& picked = choice(*specs[k], role);
-      const std::string name = picked.kind.empty() ? "none" : picked.kind;
-      const LawKind* found = findLaw(role, name);
-      if (!found) throw InputError(fmt::format("there is no {} law '{}'", roleName(role), name));
-      if (kind && found != kind)
-        throw InputError(
-            fmt::format("all contacts of a scene need the same kind of {} law; found '{}' and '{}'",
-                        roleName(role), kind->name, found->name));
-      if (found->needsElasticity && context.types[k].effectiveYoungsModulus <= 0.0)
-        throw InputError(
-            fmt::format("the {} law '{}' needs youngs_modulus and poisson_ratio of both '{}' and '{}'",
-                        roleName(role), name, specs[k]->first, specs[k]->second));
-      kind = found;
-      context.types[k].parameters = picked.parameters;
-    }
-    if (!kind || kind->name == "none") continue;
-    append(kind->make(context), kind->name, role);
-  }
+  for (const LawRole role : {LawRole::normal, LawRole::tangential, LawRole::rolling, LawRole::torsion})
+    appendRole(role, specs);
   // A gap law acts between the pairs of materials that name it.
   std::vector<std::string> gaps;
   for (const ContactSpec* spec : specs)
@@ -149,6 +152,36 @@ LawStack::LawStack(const Scene& scene, bool anySize) : materials_(static_cast<in
       context.types[k].used = context.types[k].used && named;
     }
     append(kind->make(context), name, LawRole::gap);
+  }
+}
+
+void LawStack::appendRole(LawRole role, const std::vector<const ContactSpec*>& specs) {
+  // Each kind runs over all contacts, with constants of zero, and so without effect, for the pairs of
+  // materials that use another.
+  std::vector<const LawKind*> kinds, ofPair(specs.size(), nullptr);
+  for (std::size_t k = 0; k < specs.size(); ++k) {
+    if (!context_.types[k].used) continue;
+    const Choice& picked = choice(*specs[k], role);
+    const std::string name = picked.kind.empty() ? "none" : picked.kind;
+    const LawKind* found = findLaw(role, name);
+    if (!found) throw InputError(fmt::format("there is no {} law '{}'", roleName(role), name));
+    if (found->needsElasticity && context_.types[k].effectiveYoungsModulus <= 0.0)
+      throw InputError(
+          fmt::format("the {} law '{}' needs youngs_modulus and poisson_ratio of both '{}' and '{}'",
+                      roleName(role), name, specs[k]->first, specs[k]->second));
+    if (found->name == "none") continue;
+    ofPair[k] = found;
+    if (std::find(kinds.begin(), kinds.end(), found) == kinds.end()) kinds.push_back(found);
+  }
+  for (const LawKind* kind : kinds) {
+    LawContext context = context_;
+    for (std::size_t k = 0; k < specs.size(); ++k) {
+      context.types[k].used = ofPair[k] == kind;
+      if (context.types[k].used) context.types[k].parameters = choice(*specs[k], role).parameters;
+    }
+    append(kind->make(context), kind->name, role);
+    if (role == LawRole::tangential && entries_.back().law->fullRadiusArm() != fullRadiusArm_)
+      throw InputError("all tangential laws of a scene need the same choice of 'arm'");
   }
 }
 

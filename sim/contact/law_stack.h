@@ -55,6 +55,7 @@ public:
   int outputQuads() const { return readsSpin_ ? 3 : turning_ ? 2 : 1; }
 
 private:
+  void appendRole(LawRole role, const std::vector<const ContactSpec*>& specs);
   void append(std::shared_ptr<const Law> law, std::string name, LawRole role);
 
   std::vector<Entry> entries_;

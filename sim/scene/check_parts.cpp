@@ -65,33 +65,6 @@ std::string contactPath(const ContactSpec& c, std::size_t index) {
   return partPath("contact", c.first.empty() ? "" : c.first + "-" + c.second, index);
 }
 
-/// A kernel runs one kind of law for each role over all contacts.
-void checkSameLaws(const Scene& scene, FaultList& faults) {
-  const ContactSpec& first = scene.contacts.front();
-  const auto compare = [&](const std::string& path, const char* role, const Choice& a, const Choice& b) {
-    if (a.kind == b.kind || a.kind.empty() || b.kind.empty() || faults.has(path + "." + role)) return;
-    faults.about(path + "." + role,
-                 fmt::format("uses the law '{}', but contact.{} uses '{}'; all contacts of a scene must "
-                             "use the same {} law",
-                             b.kind, contactPath(first, 0).substr(8), a.kind, role));
-  };
-  for (std::size_t i = 1; i < scene.contacts.size(); ++i) {
-    const ContactSpec& c = scene.contacts[i];
-    const std::string path = contactPath(c, i);
-    compare(path, "normal", first.normal, c.normal);
-    compare(path, "tangential", first.tangential, c.tangential);
-    compare(path, "rolling", first.rolling, c.rolling);
-    if (c.gap.size() != first.gap.size())
-      faults.about(
-          path,
-          fmt::format(
-              "has {} gap laws, but contact.{} has {}; all contacts of a scene must use the same gap laws",
-              c.gap.size(), contactPath(first, 0).substr(8), first.gap.size()));
-    for (std::size_t g = 0; g < std::min(c.gap.size(), first.gap.size()); ++g)
-      compare(path, "gap", first.gap[g], c.gap[g]);
-  }
-}
-
 void checkElasticity(const Scene& scene, const ContactSpec& contact, const std::string& path,
                      FaultList& faults) {
   const LawKind* law = findLaw(LawRole::normal, contact.normal.kind);
@@ -119,6 +92,7 @@ void checkLaw(LawRole role, const Choice& law, const std::string& path, FaultLis
   context.types.push_back({.used = true,
                            .parameters = law.parameters,
                            .referenceMass = 1e-6,
+                           .largestEffectiveRadius = 1e-3,
                            .effectiveYoungsModulus = 1e9,
                            .effectiveShearModulus = 1e9});
   try {
@@ -132,6 +106,7 @@ void checkLawsOf(const ContactSpec& contact, const std::string& path, FaultList&
   checkLaw(LawRole::normal, contact.normal, path + ".normal", faults);
   checkLaw(LawRole::tangential, contact.tangential, path + ".tangential", faults);
   checkLaw(LawRole::rolling, contact.rolling, path + ".rolling", faults);
+  checkLaw(LawRole::torsion, contact.torsion, path + ".torsion", faults);
   for (std::size_t g = 0; g < contact.gap.size(); ++g)
     checkLaw(LawRole::gap, contact.gap[g], fmt::format("{}.gap.{}", path, g + 1), faults);
 }
@@ -200,7 +175,6 @@ void checkContacts(const Scene& scene, FaultList& faults) {
     checkElasticity(scene, c, path, faults);
     checkLawsOf(c, path, faults);
   }
-  if (!scene.contacts.empty()) checkSameLaws(scene, faults);
 
   std::set<std::string> grains, walls;
   const auto known = [&](const std::string& name) {

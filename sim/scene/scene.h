@@ -35,9 +35,10 @@ struct Material {
 /// How two materials touch. One per unordered pair of materials that can meet.
 struct ContactSpec {
   std::string first, second; ///< material names
-  Choice normal;             ///< "linear", "hertz"
+  Choice normal;             ///< "linear", "hertz", ...
   Choice tangential;         ///< "none", "spring", ... (kind "none" when the scene leaves it out)
-  Choice rolling;            ///< "none", "elastic_plastic"
+  Choice rolling;            ///< "none", "elastic_plastic", ...
+  Choice torsion;            ///< about the normal: "none", "elastic_plastic", ...
   std::vector<Choice> gap;   ///< further laws (bridges, ...), usually empty
   bool operator==(const ContactSpec&) const = default;
 };

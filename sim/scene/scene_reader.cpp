@@ -106,6 +106,7 @@ private:
     readLaw(in, "normal", LawRole::normal, contact.normal);
     readLaw(in, "tangential", LawRole::tangential, contact.tangential);
     readLaw(in, "rolling", LawRole::rolling, contact.rolling);
+    readLaw(in, "torsion", LawRole::torsion, contact.torsion);
     for (const auto& [lawTable, lawPath] : in.subtables("gap", false)) {
       TableReader law(*lawTable, lawPath, faults_);
       law.choose("law", lawsOf(LawRole::gap), contact.gap.emplace_back());

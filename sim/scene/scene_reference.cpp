@@ -103,10 +103,10 @@ std::string sceneReference() {
   text += "## `[[material]]`\n\n" + table(materialKeys());
   text += "## `[[contact]]`: how two materials touch\n\nOne for each two materials that can meet. Each law "
           "is a table: "
-          "`normal = { law = \"linear\", … }`; a law left out is `none`.\nAll contacts of a scene use the "
-          "same kinds of law.\n\n" +
+          "`normal = { law = \"linear\", … }`; a law left out is `none`.\nPairs of materials may "
+          "use different kinds; docs/laws.md has the formulas and says when to use which.\n\n" +
           table(contactKeys()) + laws(LawRole::normal, "normal") + laws(LawRole::tangential, "tangential") +
-          laws(LawRole::rolling, "rolling") + laws(LawRole::gap, "gap");
+          laws(LawRole::rolling, "rolling") + laws(LawRole::torsion, "torsion") + laws(LawRole::gap, "gap");
   text += "## `[[species]]`: grains of one sort\n\n" + table(speciesKeys()) +
           "and `size = { distribution = \"…\", … }`:\n\n" + kinds(sizeKinds(), "distribution");
   text += "## `[[wall]]`\n\n" + table(wallKeys()) + kinds(wallKinds(), "kind") +

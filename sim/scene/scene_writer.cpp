@@ -178,6 +178,7 @@ private:
     all.push_back("normal = " + lawTable(LawRole::normal, c.normal));
     all.push_back("tangential = " + lawTable(LawRole::tangential, c.tangential));
     all.push_back("rolling = " + lawTable(LawRole::rolling, c.rolling));
+    if (!c.torsion.kind.empty()) all.push_back("torsion = " + lawTable(LawRole::torsion, c.torsion));
     if (!c.gap.empty())
       all.push_back("gap = " + list(c.gap, [](const Choice& law) { return lawTable(LawRole::gap, law); }));
     return all;

@@ -5,8 +5,8 @@
 // l the rolling length: given, or a coefficient times the effective radius. The dashpot acts while the couple
 // is below its limit. Rotation about the normal (torsion) is left free.
 
-#include "sim/base/error.h"
 #include "sim/contact/law_loop.h"
+#include "sim/contact/laws/law_options.h"
 #include "sim/contact/laws/laws.h"
 
 #include <cmath>
@@ -21,9 +21,7 @@ public:
     for (const PairType& t : context.types) {
       Constants<double> c;
       if (t.used) {
-        const bool given = t.parameters.has("length"), scaled = t.parameters.has("coefficient");
-        if (given == scaled)
-          throw InputError("rolling resistance needs either length or coefficient, and not both");
+        requireOne(t.parameters, "rolling resistance", "length", "coefficient");
         c.length = t.parameters.number("length", 0.0);
         c.coefficient = t.parameters.number("coefficient", 0.0);
         c.damping = t.parameters.number("damping");
@@ -100,30 +98,11 @@ LawKind noRollingLaw() {
 }
 
 LawKind elasticPlasticRollingLaw() {
-  ParameterSpec length{
-      "length", ParameterType::number, "m", "largest couple over normal force", {}, true, 0.0, 1e30, true};
-  ParameterSpec coefficient{"coefficient",
-                            ParameterType::number,
-                            "1",
-                            "the same as a share of the effective radius",
-                            {},
-                            true,
-                            0.0,
-                            10.0,
-                            true};
-  ParameterSpec damping{"damping",
-                        ParameterType::number,
-                        "1",
-                        "share of critical damping below the limit",
-                        ParameterValue(0.3),
-                        false,
-                        0.0,
-                        1.0};
   return {"elastic_plastic",
           LawRole::rolling,
           "rolling spring and dashpot with a limit couple",
           false,
-          {length, coefficient, damping},
+          {coupleLength(), coupleCoefficient(), coupleDamping()},
           [](const LawContext& c) { return std::make_unique<ElasticPlasticRolling>(c); }};
 }
 

@@ -1,10 +1,17 @@
-// Hertz contact with the damping of Tsuji, Tanaka, Ishida (Powder Technol. 71, 239 (1992)):
-//   F = 4/3 E* sqrt(R) overlap^(3/2) - 2 sqrt(5/6) beta sqrt(S m) v_n,  S = 2 E* sqrt(R overlap),
-// beta = -ln e / sqrt(ln^2 e + pi^2), which gives the same restitution e at every impact speed
-// (Antypov, Elliott, EPL 94, 50004 (2011)) as long as attraction while parting is not cut off.
+// Hertz contact  F = 4/3 E* sqrt(R) d^(3/2) - gamma v_n,  S = 2 E* sqrt(R d) its stiffness, with a dashpot by
+//   restitution:       gamma = 2 sqrt(5/6) beta sqrt(S m), beta = -ln e / sqrt(ln^2 e + pi^2): Tsuji, Tanaka,
+//                      Ishida, Powder Technol. 71, 239 (1992). The same e at every impact speed (Antypov,
+//                      Elliott, EPL 94, 50004 (2011)) as long as attraction while parting is not cut off;
+//   damping_rate:      gamma = rate m sqrt(R d), as other programs have it;
+//   dissipation_time:  a viscoelastic material, e falls with speed. With rho = 4/3 E* sqrt(R),
+//       F = rho (d^(3/2) + 3/2 A sqrt(d) d')  (Brilliantov, Spahn, Hertzsch, Poeschel, PRE 53, 5382 (1996);
+//                                             convention "brilliantov", gamma = A S), or
+//       F = rho (d^(3/2) +     A sqrt(d) d')  (Kuwabara, Kono, Jpn. J. Appl. Phys. 26, 1230 (1987): the
+//                                             factor is in the constant; "kuwabara_kono", gamma = 2/3 A S).
 
 #include "sim/base/error.h"
 #include "sim/contact/law_loop.h"
+#include "sim/contact/laws/law_options.h"
 #include "sim/contact/laws/laws.h"
 #include "sim/contact/restitution.h"
 
@@ -15,35 +22,37 @@ namespace sandglass {
 
 namespace {
 
-constexpr double unlimited = 1e30;
-
 class HertzNormal final : public LawLoop<HertzNormal> {
 public:
   explicit HertzNormal(const LawContext& context) {
     for (const PairType& t : context.types) {
       Constants<double> c;
       if (t.used) {
+        const Parameters& p = t.parameters;
+        const int given = p.has("restitution") + p.has("damping_rate") + p.has("dissipation_time");
+        if (given != 1)
+          throw InputError(
+              "a hertz contact needs exactly one of restitution, damping_rate and dissipation_time");
         c.modulus = t.effectiveYoungsModulus;
-        c.floor = t.parameters.boolean("clamp_attraction") ? 0.0 : -unlimited;
-        c.damping = 2.0 * std::sqrt(5.0 / 6.0) * dampingRatio(t.parameters.number("restitution"));
+        c.floor = attractionFloor(p);
+        if (p.has("restitution"))
+          c.tsuji = 2.0 * std::sqrt(5.0 / 6.0) * dampingRatio(p.number("restitution"));
+        c.rate = p.number("damping_rate", 0.0) / (2.0 * c.modulus);
+        const bool inside = p.text("dissipation_convention") == "kuwabara_kono";
+        c.time = (inside ? 2.0 / 3.0 : 1.0) * p.number("dissipation_time", 0.0);
+        tsuji_ = tsuji_ || c.tsuji > 0.0;
+        masses_ = masses_ || c.tsuji > 0.0 || c.rate > 0.0;
       }
       table_.push_back(c);
     }
   }
 
   template <class Real, class Table>
-  SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
-    SANDGLASS_CONTACTS(i) {
-      const auto c = table(i);
-      const Real x = std::max(b.overlap[i], Real(0));
-      const Real S = 2 * c.modulus * std::sqrt(b.effectiveRadius[i] * x);
-      const Real gamma = c.damping * std::sqrt(S * b.effectiveMass[i]);
-      Real force = std::max(Real(2.0 / 3.0) * S * x - gamma * b.vn[i], c.floor);
-      b.stiffness[i] = S;
-      b.damping[i] = gamma;
-      b.normalForce[i] += force;
-      b.contactForce[i] += std::max(force, Real(0));
-    }
+  SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int, const Table& table) const {
+    if (tsuji_)
+      spring<true, true>(b, table);
+    else
+      masses_ ? spring<false, true>(b, table) : spring<false, false>(b, table);
   }
 
   double storedEnergy(const ContactBlock& b, int i, int) const override {
@@ -55,35 +64,62 @@ public:
   /// t = 2.8683 (m^2 / (R E*^2 v))^(1/5), with E* as above.
   double collisionTime(int type, double mass, double radius, double speed) const override {
     const double E = table_[type].modulus;
+    if (E <= 0.0) return Law::collisionTime(type, mass, radius, speed);
     return 2.8683 * std::pow(mass * mass / (radius * E * E * speed), 0.2);
   }
 
-  unsigned reads() const override { return effectiveMass | effectiveRadius; }
+  unsigned reads() const override {
+    return masses_ ? unsigned{effectiveMass} | effectiveRadius : unsigned{effectiveRadius};
+  }
 
   template <class Real> struct Constants {
-    Real modulus = 0, damping = 0, floor = 0; ///< floor [N]: the most attractive force allowed
+    Real modulus = 0;                   ///< E* [Pa]
+    Real tsuji = 0, rate = 0, time = 0; ///< gamma over sqrt(S m), over S m [1/N], over S [s]
+    Real floor = 0;                     ///< the most attractive force allowed [N]
   };
   std::vector<Constants<double>> table_;
+
+private:
+  template <bool tsuji, bool masses, class Real, class Table>
+  SANDGLASS_LOOP static void spring(ContactBlockOf<Real>& b, const Table& table) {
+    SANDGLASS_CONTACTS(i) {
+      const auto c = table(i);
+      const Real x = std::max(b.overlap[i], Real(0));
+      const Real S = 2 * c.modulus * std::sqrt(b.effectiveRadius[i] * x);
+      Real gamma = c.time * S;
+      if constexpr (masses) gamma += c.rate * (S * b.effectiveMass[i]);
+      if constexpr (tsuji) gamma += c.tsuji * std::sqrt(S * b.effectiveMass[i]);
+      const Real force = std::max(Real(2.0 / 3.0) * S * x - gamma * b.vn[i], c.floor);
+      b.stiffness[i] += S;
+      b.damping[i] += gamma;
+      b.normalForce[i] += force;
+      b.contactForce[i] += std::max(force, Real(0));
+    }
+  }
+
+  bool tsuji_ = false, masses_ = false;
 };
 
 } // namespace
 
 LawKind hertzNormalLaw() {
-  ParameterSpec e{"restitution",
-                  ParameterType::number,
-                  "1",
-                  "coefficient of restitution, the same at every speed",
-                  {},
-                  false,
-                  0.0,
-                  1.0,
-                  true};
-  ParameterSpec clamp{
-      "clamp_attraction", ParameterType::boolean, "1",
-      "cut the dashpot's attraction while parting; lowers nothing but the tail, raises restitution",
-      ParameterValue(false)};
-  return {"hertz", LawRole::normal, "Hertz spring with Tsuji's dashpot",
-          true,    {e, clamp},      [](const LawContext& c) { return std::make_unique<HertzNormal>(c); }};
+  const auto number = [](const char* name, const char* unit, const char* description, double largest,
+                         bool open) {
+    return ParameterSpec{name, ParameterType::number, unit, description, {}, true, 0.0, largest, open};
+  };
+  ParameterSpec convention{"dissipation_convention", ParameterType::text, "1",
+                           "whether the factor 3/2 stands before the dissipation time or is inside it",
+                           ParameterValue(std::string("brilliantov"))};
+  convention.choices = {"brilliantov", "kuwabara_kono"};
+  return {"hertz",
+          LawRole::normal,
+          "Hertz spring with the dashpot of Tsuji, or of a viscoelastic material",
+          true,
+          {number("restitution", "1", "coefficient of restitution, the same at every speed", 1.0, true),
+           number("damping_rate", "1/(m*s)", "dashpot over reduced mass and contact radius", 1e30, false),
+           number("dissipation_time", "s", "constant A of a viscoelastic material", 1e30, false), convention,
+           clampAttraction()},
+          [](const LawContext& c) { return std::make_unique<HertzNormal>(c); }};
 }
 
 } // namespace sandglass

@@ -42,6 +42,34 @@ bool readsFullRadiusArm(const Parameters& p) {
   return p.text("arm") == "radius";
 }
 
+ParameterSpec coupleLength() {
+  return {"length", ParameterType::number, "m", "largest couple over normal force", {}, true, 0.0, 1e30,
+          true};
+}
+
+ParameterSpec coupleCoefficient() {
+  return {"coefficient",
+          ParameterType::number,
+          "1",
+          "the same as a share of the effective radius",
+          {},
+          true,
+          0.0,
+          10.0,
+          true};
+}
+
+ParameterSpec coupleDamping() {
+  return {"damping",
+          ParameterType::number,
+          "1",
+          "share of critical damping below the limit",
+          ParameterValue(0.3),
+          false,
+          0.0,
+          1.0};
+}
+
 void SharedChoice::take(bool value) {
   if (set_ && value != value_)
     throw InputError(fmt::format("all contacts of a scene need the same choice of '{}'", option_));

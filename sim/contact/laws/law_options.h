@@ -21,6 +21,12 @@ double attractionFloor(const Parameters& p);
 ParameterSpec contactArm();
 bool readsFullRadiusArm(const Parameters& p);
 
+/// Parameters of the couples of rolling and torsion: largest couple over normal force as a length or as a
+/// share of the effective radius, and the share of critical damping.
+ParameterSpec coupleLength();
+ParameterSpec coupleCoefficient();
+ParameterSpec coupleDamping();
+
 /// Sets a choice that all types of a law share, or throws InputError when they differ.
 class SharedChoice {
 public:

@@ -8,10 +8,20 @@ namespace sandglass {
 LawKind linearNormalLaw();
 LawKind waltonBraunNormalLaw();
 LawKind hertzNormalLaw();
+LawKind dmtNormalLaw();
+LawKind jkrNormalLaw();
 LawKind noTangentialLaw();
+LawKind viscousTangentialLaw();
 LawKind springTangentialLaw();
 LawKind mindlinTangentialLaw();
+LawKind waltonTangentialLaw();
 LawKind noRollingLaw();
+LawKind constantTorqueRollingLaw();
 LawKind elasticPlasticRollingLaw();
+LawKind noTorsionLaw();
+LawKind constantTorqueTorsionLaw();
+LawKind elasticPlasticTorsionLaw();
+LawKind vanDerWaalsLaw();
+LawKind coulombLaw();
 
 } // namespace sandglass

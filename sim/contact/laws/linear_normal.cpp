@@ -64,10 +64,12 @@ public:
   }
 
   double collisionTime(int type, double mass, double, double) const override {
-    // Overdamped contacts creep apart; their spring alone still limits the step.
+    // Overdamped contacts creep apart; then the decay time m / gamma of the dashpot limits the step.
     const auto& c = table_[type];
+    if (c.k <= 0.0) return Law::collisionTime(type, mass, 0.0, 0.0);
     const double zeta = c.zeta + 0.5 * c.rate * std::sqrt(mass / c.k);
-    return std::numbers::pi / std::sqrt(c.k / mass * std::max(1.0 - zeta * zeta, 0.1));
+    const double omega = std::sqrt(c.k / mass), swing = omega * std::sqrt(std::max(1.0 - zeta * zeta, 0.1));
+    return std::numbers::pi / std::max(swing, 2.0 * zeta * omega);
   }
 
   unsigned reads() const override { return constantDamping_ ? 0u : unsigned{effectiveMass}; }
@@ -91,8 +93,8 @@ private:
       if constexpr (!constantDamping) gamma = damping(c, b.effectiveMass[i]);
       Real force = std::max(c.k * b.overlap[i] - gamma * b.vn[i], c.floor);
       force = b.overlap[i] > 0 ? force : 0;
-      b.stiffness[i] = c.k;
-      b.damping[i] = gamma;
+      b.stiffness[i] += c.k;
+      b.damping[i] += gamma;
       b.normalForce[i] += force;
       b.contactForce[i] += std::max(force, Real(0));
     }

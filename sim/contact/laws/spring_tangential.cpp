@@ -13,6 +13,7 @@
 #include "sim/contact/laws/laws.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace sandglass {
 
@@ -61,6 +62,11 @@ public:
     for (int k = 0; k < 3; ++k)
       s2 += b.history[first + k][i] * b.history[first + k][i];
     return 0.5 * table_[b.type[i]].ratio * b.stiffness[i] * s2;
+  }
+
+  /// A dashpot given by its rate has a time scale of its own.
+  double collisionTime(int type, double, double, double) const override {
+    return std::numbers::pi / table_[type].rate; // infinite without
   }
 
   unsigned reads() const override { return rated_ && !oneMass_ ? unsigned{effectiveMass} : 0u; }

@@ -66,8 +66,7 @@ public:
       const Real kept = std::max(residual[i], c.residual * x);
       const Real force = std::min(c.loading * x, std::max(c.unloading * (x - kept), Real(0)));
       residual[i] = x > 0 ? kept : 0;
-      b.stiffness[i] = c.loading;
-      b.damping[i] = 0;
+      b.stiffness[i] += c.loading;
       b.normalForce[i] += force;
       b.contactForce[i] += force;
     }

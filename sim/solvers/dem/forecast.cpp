@@ -2,6 +2,7 @@
 // moment.
 
 #include "sim/base/random.h"
+#include "sim/contact/head_on.h"
 #include "sim/grains/seeding.h"
 #include "sim/solvers/dem/dem_solver.h"
 #include "sim/solvers/dem/step_rule.h"
@@ -72,12 +73,14 @@ Forecast forecast(const Scene& scene) {
                                      kind ? kind->description : "a law of the program",
                                      8 * entry.law->historySize()));
   }
+  for (const std::string& line : restitutionReport(scene, impactSpeed(scene)))
+    f.modelled.push_back(line);
   const bool periodic = scene.domain.periodic[0] || scene.domain.periodic[1] || scene.domain.periodic[2];
   const auto tell = [&](bool used, const std::string& feature, const std::string& cost) {
     (used ? f.modelled : f.notModelled).push_back(used ? feature + "; " + cost : feature);
   };
   tell(laws.turning(), "spin of grains", "64 bytes a grain, 24 bytes a pair");
-  tell(laws.readsSpin(), "rolling resistance", "24 bytes a pair");
+  tell(laws.readsSpin(), "couples of rolling and torsion", "24 bytes a pair");
   tell(laws.range() > 0.0, "forces across a gap", fmt::format("lists reach {:.3g} m further", laws.range()));
   tell(periodic, "periodic directions", "12 bytes a grain, 9 bytes a pair");
   tell(!scene.walls.empty(), "walls", "paid by the grains that are near one");
