@@ -187,6 +187,10 @@ void LawStack::appendRole(LawRole role, const std::vector<const ContactSpec*>& s
 
 void LawStack::apply(ContactBlock& block, bool couples) const {
   clearForces(block, couples);
+  addForces(block);
+}
+
+void LawStack::addForces(ContactBlock& block) const {
   if (events_) std::fill_n(block.event, block.size, noEvent);
   for (const Entry& entry : entries_)
     entry.law->apply(block, entry.firstHistory, width_);

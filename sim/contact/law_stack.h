@@ -21,6 +21,8 @@ public:
 
   /// Runs a filled block through all laws, from zero forces. Events of gap laws stay in the block.
   void apply(ContactBlock& block, bool couples) const;
+  /// The same onto forces that are there (zero, as kernels leave them).
+  void addForces(ContactBlock& block) const;
 
   /// Whether a grain has the mass that PairType::uniformMass promised to the laws.
   bool asPromised(int material, double inverseMass) const {

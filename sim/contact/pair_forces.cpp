@@ -50,14 +50,13 @@ void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Sc
 void PairForces::applyLaws(std::int64_t first, Scratch& scratch) const {
   ContactBlock& b = scratch.block;
   if (laws_.range() == 0.0) {
-    laws_.apply(b, laws_.readsSpin());
+    laws_.addForces(b);
     return;
   }
   // Laws across a gap: some pairs of the list are beyond their range, and some are born or die.
   double before[ContactBlock::maxHistory][ContactBlock::capacity];
   for (int k = 0; k < laws_.historySize(); ++k)
     std::copy_n(b.history[k], b.size, before[k]);
-  clearForces(b, laws_.readsSpin());
   for (std::size_t l = 0; l < laws_.entries().size(); ++l) {
     const auto& entry = laws_.entries()[l];
     const bool watched = laws_.hasEvents() && entry.role == LawRole::gap;

@@ -84,7 +84,7 @@ template <class Visit> void PairForces::visitContacts(double dt, Visit&& visit) 
     const int count =
         static_cast<int>(std::min<std::int64_t>(ContactBlock::capacity, list_->entries() - first));
     fillBlock(first, count, dt, block, columns);
-    laws_.apply(block, laws_.readsSpin());
+    laws_.addForces(block);
     if (block.oneType) std::fill_n(block.type, count, block.type[0]);
     for (int c = 0; c < count; ++c)
       if (block.overlap[c] > -laws_.range() && !list_->isPadding(first + c)) visit(first + c, block, c);

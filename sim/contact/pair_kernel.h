@@ -51,7 +51,7 @@ struct Speeds {
 };
 
 struct Kernel {
-  /// Fills geometry, motion and history of `count` pairs from `first`; both are multiples of 8.
+  /// Fills geometry, motion and history of `count` pairs from `first`; both are multiples of 8. Forces: zero.
   void (*fill)(const ParticleView&, std::int64_t first, int count, ContactBlock&, PairColumns&);
   /// Writes histories (unless `keepHistory`) and outputs.
   void (*write)(const ParticleView&, std::int64_t first, const ContactBlock&, const PairColumns&,

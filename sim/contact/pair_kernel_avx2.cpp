@@ -74,6 +74,7 @@ void fill(const ParticleView& v, std::int64_t first, int count, ContactBlock& b,
   }
   fillExtras(v, first, b, p);
   fillHistory(v, first, b);
+  clearForces(b, v.readsSpin);
 }
 
 /// Columns x y z of four contacts to quads (x y z 0), `stride` doubles apart.

@@ -34,6 +34,7 @@ void fill(const ParticleView& v, std::int64_t first, int count, ContactBlock& b,
   turning ? finishGeometry<true>(b, p, v.radiusArm) : finishGeometry<false>(b, p, v.radiusArm);
   fillExtras(v, first, b, p);
   fillHistory(v, first, b);
+  clearForces(b, v.readsSpin);
 }
 
 void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, const PairColumns& p,

@@ -5,8 +5,8 @@
 #include "sim/contact/law_columns.h"
 #include "sim/contact/pair_kernel.h"
 
-/// Over all lanes, also those behind the last contact, whose values nobody reads: loops of fixed length need no
-/// remainder.
+/// Over all lanes, also those behind the last contact, whose values nobody reads: loops of fixed length need
+/// no remainder.
 #define LANES(c) _Pragma("GCC ivdep") for (int c = 0; c < ContactBlock::capacity; ++c)
 
 namespace sandglass {
@@ -109,8 +109,7 @@ inline void outputs(const ContactBlock& b, const PairColumns& p, bool turning, O
     o.fy[c] = b.normalForce[c] * b.ny[c] + b.fty[c];
     o.fz[c] = b.normalForce[c] * b.nz[c] + b.ftz[c];
   }
-  if (turning)
-    LANES(c) {
+  if (turning) LANES(c) {
       o.tx[c] = p.arm[c] * (b.nz[c] * b.fty[c] - b.ny[c] * b.ftz[c]);
       o.ty[c] = p.arm[c] * (b.nx[c] * b.ftz[c] - b.nz[c] * b.ftx[c]);
       o.tz[c] = p.arm[c] * (b.ny[c] * b.ftx[c] - b.nx[c] * b.fty[c]);

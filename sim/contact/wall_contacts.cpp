@@ -230,7 +230,7 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
 
 void WallContacts::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first,
                          std::int64_t last) const {
-  if (candidates_.empty()) return;
+  if (candidates_.empty() || offsets_[first] == offsets_[last]) return;
   for (std::int64_t i = first; i < last; ++i)
     for (std::int32_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
       const double* out = result_.data() + static_cast<std::size_t>(k) * 6;

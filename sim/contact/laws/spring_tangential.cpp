@@ -37,6 +37,7 @@ public:
         c.gamma = c.rate * t.uniformMass;
         oneMass_ = oneMass_ && t.uniformMass > 0.0;
         rated_ = rated_ || c.rate > 0.0;
+        damped_ = damped_ || c.rate > 0.0 || c.damping > 0.0;
         project_.take(p.text("rotation") == "project");
         fullArm_.take(readsFullRadiusArm(p));
       }
@@ -50,11 +51,10 @@ public:
 
   template <class Real, class Table>
   SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {
-    const bool masses = rated_ && !oneMass_;
     if (project_.value())
-      masses ? spring<true, true>(b, first, table) : spring<true, false>(b, first, table);
+      spring<true>(b, first, table);
     else
-      masses ? spring<false, true>(b, first, table) : spring<false, false>(b, first, table);
+      spring<false>(b, first, table);
   }
 
   double storedEnergy(const ContactBlock& b, int i, int first) const override {
@@ -80,7 +80,19 @@ public:
   std::vector<Constants<double>> table_;
 
 private:
-  template <bool project, bool masses, class Real, class Table>
+  enum class Dashpot { none, coefficient, rate };
+
+  template <bool project, class Real, class Table>
+  SANDGLASS_LOOP void spring(ContactBlockOf<Real>& b, int first, const Table& table) const {
+    if (!damped_)
+      spring<project, Dashpot::none>(b, first, table);
+    else if (rated_ && !oneMass_)
+      spring<project, Dashpot::rate>(b, first, table);
+    else
+      spring<project, Dashpot::coefficient>(b, first, table);
+  }
+
+  template <bool project, Dashpot dashpot, class Real, class Table>
   SANDGLASS_LOOP static void spring(ContactBlockOf<Real>& b, int first, const Table& table) {
     Real *sx = b.history[first], *sy = b.history[first + 1], *sz = b.history[first + 2];
     SANDGLASS_CONTACTS(i) {
@@ -99,23 +111,32 @@ private:
       y += b.vty[i] * b.dt;
       z += b.vtz[i] * b.dt;
       const Real kt = c.ratio * b.stiffness[i];
-      Real gamma = c.damping * b.damping[i];
-      if constexpr (masses)
-        gamma += c.rate * b.effectiveMass[i];
-      else
-        gamma += c.gamma;
-      Real fx = -kt * x - gamma * b.vtx[i], fy = -kt * y - gamma * b.vty[i], fz = -kt * z - gamma * b.vtz[i];
+      Real gamma = 0;
+      if constexpr (dashpot == Dashpot::rate) gamma = c.damping * b.damping[i] + c.rate * b.effectiveMass[i];
+      if constexpr (dashpot == Dashpot::coefficient) gamma = c.damping * b.damping[i] + c.gamma;
+      Real fx = -kt * x, fy = -kt * y, fz = -kt * z;
+      if constexpr (dashpot != Dashpot::none) {
+        fx -= gamma * b.vtx[i];
+        fy -= gamma * b.vty[i];
+        fz -= gamma * b.vtz[i];
+      }
       const Real f2 = fx * fx + fy * fy + fz * fz, limit = c.friction * b.contactForce[i];
       const bool slides = f2 > limit * limit;
       const Real scale = slides ? limit / std::sqrt(f2) : Real(1);
       fx *= scale;
       fy *= scale;
       fz *= scale;
+      if constexpr (dashpot == Dashpot::none) {
+        x *= scale;
+        y *= scale;
+        z *= scale;
+      } else {
+        const Real compliance = kt > 0 ? 1 / kt : 0;
+        x = slides ? -(fx + gamma * b.vtx[i]) * compliance : x;
+        y = slides ? -(fy + gamma * b.vty[i]) * compliance : y;
+        z = slides ? -(fz + gamma * b.vtz[i]) * compliance : z;
+      }
       const bool touches = b.overlap[i] > 0;
-      const Real compliance = kt > 0 ? 1 / kt : 0;
-      x = slides ? -(fx + gamma * b.vtx[i]) * compliance : x;
-      y = slides ? -(fy + gamma * b.vty[i]) * compliance : y;
-      z = slides ? -(fz + gamma * b.vtz[i]) * compliance : z;
       sx[i] = touches ? x : 0;
       sy[i] = touches ? y : 0;
       sz[i] = touches ? z : 0;
@@ -125,7 +146,7 @@ private:
     }
   }
 
-  bool oneMass_ = true, rated_ = false;
+  bool oneMass_ = true, rated_ = false, damped_ = false;
   SharedChoice project_{"rotation"}, fullArm_{"arm"};
 };
 
