@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace sandglass {
@@ -89,10 +90,24 @@ PairType pairType(const Scene& scene, const Material& a, const Material& b) {
     const auto inverseShear = [](const Material& m) {
       return 2.0 * (2.0 - *m.poissonRatio) * (1.0 + *m.poissonRatio) / *m.youngsModulus; // (2 - nu) / G
     };
-    t.effectiveYoungsModulus = 1.0 / (inverse(a) + inverse(b));
-    t.effectiveShearModulus = 1.0 / (inverseShear(a) + inverseShear(b));
+    t.effectiveYoungsModulus = scene.accuracy.stiffnessScale / (inverse(a) + inverse(b));
+    t.effectiveShearModulus = scene.accuracy.stiffnessScale / (inverseShear(a) + inverseShear(b));
   }
   return t;
+}
+
+/// A law's parameters for contacts `scale` times as stiff: springs by their unit, collision times and rates
+/// of dashpots so that restitution stays (Hertz's dissipation_time has no such rule and stays as it is).
+Parameters scaled(const LawKind& kind, Parameters values, double scale) {
+  for (const ParameterSpec& spec : kind.parameters) {
+    if (spec.type != ParameterType::number || !values.has(spec.name)) continue;
+    const double factor = spec.unit == "N/m"                                      ? scale
+                          : spec.name == "damping_rate" && kind.name != "viscous" ? std::sqrt(scale)
+                          : spec.name == "collision_time"                         ? 1.0 / std::sqrt(scale)
+                                                                                  : 1.0;
+    values.set(spec.name, factor * values.number(spec.name));
+  }
+  return values;
 }
 
 const Choice& choice(const ContactSpec& contact, LawRole role) {
@@ -115,7 +130,8 @@ const char* roleName(LawRole role) {
 
 } // namespace
 
-LawStack::LawStack(const Scene& scene, bool anySize) : materials_(static_cast<int>(scene.materials.size())) {
+LawStack::LawStack(const Scene& scene, bool anySize)
+    : materials_(static_cast<int>(scene.materials.size())), stiffnessScale_(scene.accuracy.stiffnessScale) {
   for (const Material& m : scene.materials) {
     const double mass = anySize ? 0.0 : oneMass(scene, m);
     promisedInverseMass_.push_back(mass > 0.0 ? 1.0 / mass : 0.0);
@@ -177,7 +193,8 @@ void LawStack::appendRole(LawRole role, const std::vector<const ContactSpec*>& s
     LawContext context = context_;
     for (std::size_t k = 0; k < specs.size(); ++k) {
       context.types[k].used = ofPair[k] == kind;
-      if (context.types[k].used) context.types[k].parameters = choice(*specs[k], role).parameters;
+      if (context.types[k].used)
+        context.types[k].parameters = scaled(*kind, choice(*specs[k], role).parameters, stiffnessScale_);
     }
     append(kind->make(context), kind->name, role);
     if (role == LawRole::tangential && entries_.back().law->fullRadiusArm() != fullRadiusArm_)

@@ -65,6 +65,7 @@ private:
   std::vector<std::string> quantityNames_;
   std::vector<double> promisedInverseMass_; ///< [1/kg] by material; 0: none
   int materials_ = 0, history_ = 0;
+  double stiffnessScale_ = 1.0;
   double range_ = 0.0;
   unsigned reads_ = 0;
   KernelWidth width_ = bestKernelWidth();

@@ -247,6 +247,15 @@ const Keys& accuracyKeys() {
                           .minimum = 6,
                           .maximum = 10000},
                          positive("time_step", "s", "step, when the scene fixes it"),
+                         {.name = "stiffness_scale",
+                          .type = number,
+                          .unit = "1",
+                          .description =
+                              "stiffness of all contacts over what the laws say; steps grow as one "
+                              "over its root, overlaps as one over it",
+                          .fallback = 1.0,
+                          .minimum = 1e-6,
+                          .maximum = 1e6},
                          {.name = "skin",
                           .type = number,
                           .unit = "1",

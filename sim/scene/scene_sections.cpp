@@ -248,6 +248,7 @@ void load(const Parameters& values, AccuracySpec& accuracy) {
   accuracy.stepsPerContact = accuracy.level == "draft" ? 15 : accuracy.level == "reference" ? 50 : 25;
   get(values, "steps_per_contact", accuracy.stepsPerContact);
   get(values, "time_step", accuracy.timeStep);
+  get(values, "stiffness_scale", accuracy.stiffnessScale);
   get(values, "skin", accuracy.skin);
   get(values, "maximum_overlap", accuracy.maximumOverlap);
 }
@@ -257,6 +258,7 @@ Parameters store(const AccuracySpec& accuracy) {
   values.set("level", accuracy.level);
   values.set("steps_per_contact", accuracy.stepsPerContact);
   put(values, "time_step", accuracy.timeStep);
+  values.set("stiffness_scale", accuracy.stiffnessScale);
   values.set("skin", accuracy.skin);
   values.set("maximum_overlap", accuracy.maximumOverlap);
   return values;
