@@ -29,7 +29,8 @@ struct ParticleView {
   int outputQuads = 1; ///< force; with friction also torque over radius; with rolling also a couple
   const std::int32_t* slots = nullptr;
   bool readsSpin = false, radiusArm = false;
-  unsigned reads = 0; ///< Law::Columns
+  unsigned reads = 0;                       ///< LawColumns
+  double oneRadius = 0, oneInverseMass = 0; ///< of all grains; 0 where they differ
 };
 
 /// Working columns of a block that no law sees.

@@ -54,22 +54,27 @@ inline void finishGeometry(ContactBlockOf<Real>& b, PairColumnsOf<Real>& p, bool
 inline void fillExtras(const ParticleView& v, std::int64_t first, ContactBlock& b, const PairColumns& p) {
   const std::int32_t* pairs = v.pairs + 2 * first;
   const std::int64_t stride = 4 * v.quads;
-  if (v.reads & (LawColumns::radii | LawColumns::effectiveRadius))
-    for (int c = 0; c < b.size; ++c) {
-      b.radiusA[c] = v.records[pairs[2 * c] * stride + 3];
-      b.radiusB[c] = v.records[pairs[2 * c + 1] * stride + 3];
-    }
+  if (v.reads & (LawColumns::radii | LawColumns::effectiveRadius)) {
+    if (v.oneRadius > 0.0)
+      LANES(c) b.radiusA[c] = b.radiusB[c] = v.oneRadius;
+    else
+      for (int c = 0; c < b.size; ++c) {
+        b.radiusA[c] = v.records[pairs[2 * c] * stride + 3];
+        b.radiusB[c] = v.records[pairs[2 * c + 1] * stride + 3];
+      }
+  }
   if (v.reads & LawColumns::effectiveRadius)
-    for (int c = 0; c < b.size; ++c)
-      b.effectiveRadius[c] = b.radiusA[c] * b.radiusB[c] / p.sum[c];
-  if (v.reads & LawColumns::masses)
-    for (int c = 0; c < b.size; ++c) {
-      b.inverseMassA[c] = v.records[pairs[2 * c] * stride + 7];
-      b.inverseMassB[c] = v.records[pairs[2 * c + 1] * stride + 7];
-    }
-  if (v.reads & LawColumns::effectiveMass)
-    for (int c = 0; c < b.size; ++c)
-      b.effectiveMass[c] = 1.0 / p.inverseMass[c];
+    LANES(c) b.effectiveRadius[c] = b.radiusA[c] * b.radiusB[c] / p.sum[c];
+  if (v.reads & LawColumns::masses) {
+    if (v.oneInverseMass > 0.0)
+      LANES(c) b.inverseMassA[c] = b.inverseMassB[c] = v.oneInverseMass;
+    else
+      for (int c = 0; c < b.size; ++c) {
+        b.inverseMassA[c] = v.records[pairs[2 * c] * stride + 7];
+        b.inverseMassB[c] = v.records[pairs[2 * c + 1] * stride + 7];
+      }
+  }
+  if (v.reads & LawColumns::effectiveMass) LANES(c) b.effectiveMass[c] = 1.0 / p.inverseMass[c];
   b.oneType = v.oneMaterial;
   b.type[0] = 0;
   if (!v.oneMaterial)

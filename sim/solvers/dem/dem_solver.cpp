@@ -21,7 +21,7 @@ namespace {
 /// rare enough to cost nothing.
 constexpr int stepsBetweenOutletChecks = 50;
 /// A list is made to last about this many steps of straight flight, beside the skin of a grain at rest.
-constexpr double stepsOfFlight = 16;
+constexpr double stepsOfFlight = 24;
 constexpr std::int64_t grainsPerPiece = 1024;
 
 int materialIndex(const Scene& scene, const std::string& name) {
