@@ -58,8 +58,8 @@ public:
   virtual std::vector<std::string> grainQuantities() const { return {}; }
 
   /// Adds its force for every contact of the block and updates its history, which is
-  /// block.history[firstHistory ... firstHistory + historySize() - 1]. Contacts with a gap are in the block
-  /// only when some law has a range; contact laws leave those without force and with zero history.
+  /// block.history[firstHistory ... firstHistory + historySize() - 1]. Every listed pair is in
+  /// the block, also those with a gap; contact laws leave these without force and with zero history.
   virtual void apply(ContactBlock& block, int firstHistory, KernelWidth width) const = 0;
   /// The same under mixed precision, for laws that have it.
   virtual void apply(ContactBlockSingle& block, int firstHistory, KernelWidth width) const {}

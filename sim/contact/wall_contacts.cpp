@@ -53,7 +53,6 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
     if (feature_[k * slots] >= 0) old.push_back({ids_[k], candidates_[k].wall, k});
   std::sort(old.begin(), old.end());
   const std::vector<std::int32_t> oldFeature = std::move(feature_);
-  const std::vector<double> oldResult = std::move(result_); // for who asks before the next step
   const std::vector<double> oldHistory = std::move(history_);
 
   candidates_.clear();
@@ -83,7 +82,6 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
     if (it == old.end() || key < *it) continue;
     std::copy_n(oldFeature.data() + it->at * slots, slots, feature_.data() + k * slots);
     std::copy_n(oldHistory.data() + it->at * row, row, history_.data() + k * row);
-    std::copy_n(oldResult.data() + it->at * 6, 6, result_.data() + k * 6);
   }
 }
 

@@ -48,7 +48,6 @@ public:
   std::vector<std::int32_t>& featureArray() { return feature_; }
   const std::vector<double>& historyArray() const { return history_; }
   const std::vector<std::int32_t>& featureArray() const { return feature_; }
-  std::vector<double>& resultArray() { return result_; }
 
   std::size_t size() const { return candidates_.size(); }
 

@@ -79,10 +79,10 @@ Forecast forecast(const Scene& scene) {
   const auto tell = [&](bool used, const std::string& feature, const std::string& cost) {
     (used ? f.modelled : f.notModelled).push_back(used ? feature + "; " + cost : feature);
   };
-  tell(laws.turning(), "spin of grains", "64 bytes a grain, 24 bytes a pair");
-  tell(laws.readsSpin(), "couples of rolling and torsion", "24 bytes a pair");
+  tell(laws.turning(), "spin of grains", "32 bytes a grain, 32 bytes a pair");
+  tell(laws.readsSpin(), "couples of rolling and torsion", "32 bytes a pair");
   tell(laws.range() > 0.0, "forces across a gap", fmt::format("lists reach {:.3g} m further", laws.range()));
-  tell(periodic, "periodic directions", "12 bytes a grain, 9 bytes a pair");
+  tell(periodic, "periodic directions", "12 bytes a grain, 1 byte a pair");
   tell(!scene.walls.empty(), "walls", "paid by the grains that are near one");
   tell(fastestWall(scene) > 0.0, "moving walls", "grains near them are listed a little further out");
   tell(!scene.outlets.empty(), "outlets", "one look at each grain every 50 steps");
