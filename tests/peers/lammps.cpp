@@ -100,7 +100,7 @@ std::string lammpsOpening(const Scene& scene, const std::string& dataFile) {
   std::string boundary;
   for (const bool p : scene.domain.periodic)
     boundary += p ? " p" : " f";
-  return fmt::format("units lj\natom_style sphere\nboundary{}\nnewton off\ncomm_modify vel yes\n"
+  return fmt::format("units lj\natom_style sphere\nboundary{}\nnewton off\nprocessors * * 1\ncomm_modify vel yes\n"
                      "read_data {}\n",
                      boundary, dataFile);
 }
