@@ -134,18 +134,20 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
   // Fast grains may go further before the list is too old: a stream that falls beside a bed at rest would
   // otherwise have the whole bed listed anew every few steps. The grains of a group share what they may move.
   const double look = stepsOfFlight * dt_, most = 0.25 * meanDiameter_;
-  const auto allow = [&](std::size_t first, std::size_t last) {
+  const auto allow = [&](std::int64_t first, std::int64_t last) {
     double fastest = 0.0;
-    for (std::size_t i = first; i < last; ++i)
+    for (std::int64_t i = first; i < last; ++i)
       fastest = std::max(fastest, grains_.motion[i].vec().squaredNorm());
-    for (std::size_t i = first; i < last; ++i)
+    for (std::int64_t i = first; i < last; ++i)
       grains_.listed[i].w = 0.5 * skin_ + std::min(look * std::sqrt(fastest), most);
   };
-  for (std::size_t i = 0; i < grains_.size(); ++i)
-    allow(i, i + 1);
-  list_.build(grains_, laws_.range(), parallel_, drop, [&](std::int64_t first, std::int64_t last) {
-    allow(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
-  });
+  // Groups form when the list sorts the grains; until then each counts alone, for the largest of all.
+  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
+                     [&](std::int64_t first, std::int64_t last) {
+                       for (std::int64_t i = first; i < last; ++i)
+                         allow(i, i + 1);
+                     });
+  list_.build(grains_, laws_.range(), parallel_, drop, allow);
   allowTravel(walls_, dt_, skin_, meanDiameter_, wallRadius_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
   loop_.bind();
@@ -173,17 +175,16 @@ const DemSolver::FullStep& DemSolver::fullStep() const {
 
 void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) const {
   // What is evaluated here is evaluated once more by the next step: histories stay as they are.
-  auto& walls = const_cast<WallContacts&>(wallContacts_);
-  const auto history = walls.historyArray();
-  const auto feature = walls.featureArray();
+  const auto history = wallContacts_.historyArray();
+  const auto feature = wallContacts_.featureArray();
   DeepestOverlap deepest;
   placeWalls(walls_, time(), dt_);
-  walls.step(grains_, walls_, dt_, parallel_, deepest);
+  wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
   loop_.forces(dt_, force, torque);
-  walls.historyArray() = history;
-  walls.featureArray() = feature;
+  wallContacts_.historyArray() = history;
+  wallContacts_.featureArray() = feature;
   auto tallied = walls_;
-  walls.tally(grains_, tallied, step_ == 0 ? 0.0 : dt_);
+  wallContacts_.tally(grains_, tallied, step_ == 0 ? 0.0 : dt_);
   atFullStep_.tallies.clear();
   for (const SolverWall& wall : tallied)
     atFullStep_.tallies.push_back(wall.tally);

@@ -93,7 +93,7 @@ private:
   GrainStore grains_;
   PairList list_;
   PairForces pairForces_;
-  WallContacts wallContacts_;
+  mutable WallContacts wallContacts_;
   mutable ParticleLoop loop_;
   mutable FullStep atFullStep_;
   mutable std::vector<SolverWall> walls_;
