@@ -20,8 +20,10 @@ namespace quantity {
 inline constexpr const char* radius = "radius";     ///< scalar [m]
 inline constexpr const char* mass = "mass";         ///< scalar [kg]
 inline constexpr const char* species = "species";   ///< scalar, index into Frame::speciesNames
+inline constexpr const char* shape = "shape";       ///< scalar, index into Frame::shapes, or -1: a sphere
 inline constexpr const char* velocity = "velocity"; ///< vector [m/s]
 inline constexpr const char* spin = "spin";         ///< vector [rad/s]
+inline constexpr const char* orientation = "orientation"; ///< Frame::orientation
 inline constexpr const char* force = "force";       ///< vector [N], all forces on the grain
 inline constexpr const char* residenceTime = "residence_time"; ///< scalar [s] since it entered or was put back
 inline constexpr const char* life = "life";         ///< scalar, how often an outlet has put it back
@@ -65,6 +67,30 @@ struct FrameContact {
   double overlap = 0;                ///< [m]; negative: a gap, across which a law acts
 };
 
+/// A superellipsoid (Barr 1981, doi:10.1109/MCG.1981.1673799) in its own axes:
+///   (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) = 1
+/// e1 shapes the profile along z, e2 the section across it: 1 is round, towards 0 box-like, 2 an octahedron.
+/// Codes that write blockiness n1, n2 have e1 = 2 / n1, e2 = 2 / n2.
+struct GrainShape {
+  Vec3 semiAxes = Vec3::Ones(); ///< a, b, c [m]
+  double e1 = 1, e2 = 1;        ///< 0 < e <= 2: convex
+  bool operator==(const GrainShape&) const = default;
+};
+
+/// Averages on a regular grid (the points of a VTK image), coarse-grained from the grains.
+struct FrameField {
+  std::string name;
+  std::array<int, 3> points{1, 1, 1};                   ///< along x, y, z; 1 along a direction averaged over
+  Vec3 origin = Vec3::Zero(), spacing = Vec3::Ones();   ///< [m] first point, distance of points
+  std::map<std::string, std::vector<double>> scalars{}; ///< one value a point, x fastest; NaN: nothing there
+  std::map<std::string, std::vector<Vec3>> vectors{};
+  std::map<std::string, std::string> units{}; ///< SI symbols by array name
+  std::size_t size() const {
+    return static_cast<std::size_t>(points[0]) * static_cast<std::size_t>(points[1]) *
+           static_cast<std::size_t>(points[2]);
+  }
+};
+
 struct Frame {
   double time = 0; ///< [s]
   std::int64_t step = 0;
@@ -78,10 +104,17 @@ struct Frame {
   Domain domain;
   std::vector<FrameWall> walls;
   std::vector<FrameContact> contacts;            ///< empty unless asked for
+  std::vector<GrainShape> shapes;                ///< those that quantity::shape counts; empty: all spheres
+  /// From a grain's own axes to the scene's, one for each grain; empty where nothing turns visibly.
+  std::vector<Eigen::Quaterniond> orientation;
+  std::vector<FrameField> fields; ///< of this moment; not written into frame files
   std::map<std::string, std::string> provenance; ///< scene hash, version, seed, solver, accuracy, step size
 
   std::size_t size() const { return position.size(); }
-  bool has(const std::string& name) const { return scalars.contains(name) || vectors.contains(name); }
+  bool has(const std::string& name) const {
+    return scalars.contains(name) || vectors.contains(name) ||
+           (name == quantity::orientation && !orientation.empty());
+  }
   /// Throw InputError (one sentence naming the quantity and those present) when it is not there.
   const std::vector<double>& scalar(const std::string& name) const;
   const std::vector<Vec3>& vector(const std::string& name) const;

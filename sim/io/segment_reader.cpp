@@ -21,6 +21,14 @@ std::vector<Vec3> toVectors(const std::vector<double>& flat) {
   return vectors;
 }
 
+std::vector<Eigen::Quaterniond> toTurns(const std::vector<double>& flat) {
+  std::vector<Eigen::Quaterniond> turns;
+  turns.reserve(flat.size() / 4);
+  for (std::size_t i = 0; i < flat.size(); i += 4)
+    turns.emplace_back(flat[i], flat[i + 1], flat[i + 2], flat[i + 3]);
+  return turns;
+}
+
 } // namespace
 
 struct SegmentReader::Impl {
@@ -30,6 +38,7 @@ struct SegmentReader::Impl {
   std::vector<std::int64_t> steps, counts, firstPoints, contactCounts;
   std::vector<std::string> stages, wallNames, speciesNames;
   std::map<std::string, std::string> provenance;
+  std::vector<GrainShape> shapes;
   std::array<bool, 3> periodic{};
   bool persistentIds = true;
 
@@ -64,6 +73,11 @@ struct SegmentReader::Impl {
         if (n < 0) throw Failure(fmt::format("it counts {} grains or contacts in a step", n));
     wallNames = readTexts(own, "wallNames");
     speciesNames = readTexts(own, "speciesNames");
+    if (exists(own, "shapes")) {
+      const auto rows = readAll<double>(own, "shapes", 5);
+      for (std::size_t i = 0; i < rows.size(); i += 5)
+        shapes.push_back({Vec3(rows[i], rows[i + 1], rows[i + 2]), rows[i + 3], rows[i + 4]});
+    }
     const auto flags = readNumbers(own, "periodic");
     if (flags.size() != 3) throw Failure("its attribute 'periodic' has not three entries");
     for (int k = 0; k < 3; ++k)
@@ -86,6 +100,8 @@ struct SegmentReader::Impl {
       const auto lengths = shape(data, name);
       if (name == "id")
         frame.id = readRows<std::int64_t>(data, name, first, count, 1);
+      else if (name == quantity::orientation)
+        frame.orientation = toTurns(readRows<double>(data, name, first, count, 4));
       else if (lengths.size() == 1)
         frame.scalars[name] = readRows<double>(data, name, first, count, 1);
       else
@@ -208,6 +224,7 @@ Frame SegmentReader::load(std::size_t index, const WallShapes& shapes) const {
   frame.stage = impl_->stages[index];
   frame.persistentIds = impl_->persistentIds;
   frame.speciesNames = impl_->speciesNames;
+  frame.shapes = impl_->shapes;
   frame.provenance = impl_->provenance;
   try {
     frame.domain = {impl_->stepVector("domainLower", index), impl_->stepVector("domainUpper", index),

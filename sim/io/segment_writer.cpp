@@ -25,11 +25,12 @@ struct Signature {
   std::vector<std::string> scalars, vectors, walls, species;
   std::map<std::string, std::string> provenance;
   std::array<bool, 3> periodic;
-  bool persistentIds;
+  std::vector<GrainShape> shapes;
+  bool persistentIds, oriented;
 
   explicit Signature(const Frame& frame)
       : species(frame.speciesNames), provenance(frame.provenance), periodic(frame.domain.periodic),
-        persistentIds(frame.persistentIds) {
+        shapes(frame.shapes), persistentIds(frame.persistentIds), oriented(!frame.orientation.empty()) {
     for (const auto& [name, values] : frame.scalars)
       scalars.push_back(name);
     for (const auto& [name, values] : frame.vectors)
@@ -113,6 +114,7 @@ struct SegmentWriter::Impl {
       add(name, H5T_NATIVE_DOUBLE, {});
     for (const auto& name : signature.vectors)
       add(name, H5T_NATIVE_DOUBLE, {3});
+    if (signature.oriented) add(quantity::orientation, H5T_NATIVE_DOUBLE, {4});
   }
 
   void createOwn(const std::string& sceneText) {
@@ -124,6 +126,7 @@ struct SegmentWriter::Impl {
     writeTextDataset(own, "scene", sceneText);
     writeTexts(own, "wallNames", signature.walls);
     writeTexts(own, "speciesNames", signature.species);
+    writeShapes();
     const Handle provenance = createGroup(own, "provenance");
     for (const auto& [key, value] : signature.provenance)
       writeAttribute(provenance, key, value);
@@ -141,6 +144,14 @@ struct SegmentWriter::Impl {
       wallVectors[name] = Column(ownSteps, name, H5T_NATIVE_DOUBLE, {n, 3}, stepRows);
     wallRotation = Column(ownSteps, wallRotationName, H5T_NATIVE_DOUBLE, {n, 4}, stepRows);
     wallSums = Column(ownSteps, wallSumsName, H5T_NATIVE_DOUBLE, {n, 5}, stepRows);
+  }
+
+  void writeShapes() {
+    if (signature.shapes.empty()) return;
+    std::vector<double> rows;
+    for (const auto& [axes, e1, e2] : signature.shapes)
+      rows.insert(rows.end(), {axes.x(), axes.y(), axes.z(), e1, e2});
+    Column(own, "shapes", H5T_NATIVE_DOUBLE, {5}, stepRows).append(rows.data(), signature.shapes.size());
   }
 
   void appendVtk(const Frame& frame) {
@@ -174,6 +185,12 @@ struct SegmentWriter::Impl {
       data.at(name).append(values.data(), n);
     for (const auto& [name, values] : frame.vectors)
       data.at(name).append(n > 0 ? values.front().data() : nullptr, n);
+    if (!signature.oriented) return;
+    std::vector<double> turns; // w, x, y, z, as VTK's glyphs take them
+    turns.reserve(4 * frame.size());
+    for (const auto& q : frame.orientation)
+      turns.insert(turns.end(), {q.w(), q.x(), q.y(), q.z()});
+    data.at(quantity::orientation).append(turns.data(), n);
   }
 
   void appendOwn(const Frame& frame) {
@@ -263,7 +280,9 @@ SegmentWriter::~SegmentWriter() {
 }
 
 bool SegmentWriter::accepts(const Frame& frame) const {
-  return Signature(frame) == impl_->signature;
+  Signature given(frame);
+  if (frame.size() == 0) given.oriented = impl_->signature.oriented;
+  return given == impl_->signature;
 }
 
 void SegmentWriter::append(const Frame& frame) {

@@ -100,6 +100,13 @@ void exportVtp(const Frame& frame, const std::filesystem::path& file) {
     xml += appended.numbers(name, values);
   for (const auto& [name, values] : frame.vectors)
     xml += appended.vectors(name, values);
+  if (!frame.orientation.empty()) {
+    std::vector<double> turns;
+    turns.reserve(4 * n);
+    for (const auto& q : frame.orientation)
+      turns.insert(turns.end(), {q.w(), q.x(), q.y(), q.z()});
+    xml += appended.array("Float64", quantity::orientation, 4, turns.data(), turns.size() * sizeof(double));
+  }
   xml += "</PointData>\n<Points>\n" + appended.vectors("Points", frame.position) + "</Points>\n<Verts>\n";
   xml += appended.whole("connectivity", connectivity) + appended.whole("offsets", offsets);
   xml += "</Verts>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_" + appended.bytes();

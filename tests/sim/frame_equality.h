@@ -31,6 +31,8 @@ inline void requireEqual(const Frame& a, const Frame& b) {
   for (const auto& [name, values] : a.vectors)
     REQUIRE(sameBits(values, b.vector(name)));
   REQUIRE(a.speciesNames == b.speciesNames);
+  REQUIRE(a.shapes == b.shapes);
+  REQUIRE(sameBits(a.orientation, b.orientation));
   REQUIRE(sameBits(a.domain.lower, b.domain.lower));
   REQUIRE(sameBits(a.domain.upper, b.domain.upper));
   REQUIRE(a.domain.periodic == b.domain.periodic);

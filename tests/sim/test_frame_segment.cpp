@@ -98,6 +98,32 @@ TEST_CASE("Frames of changing size come back bit for bit", "[io]") {
   }
 }
 
+TEST_CASE("Shapes and orientations come back, through frames without grains too", "[io]") {
+  const TemporaryFolder folder("shapes");
+  std::vector<Frame> frames{randomFrame(5, 1, 0), randomFrame(0, 2, 0), randomFrame(9, 3, 2)};
+  RandomStream random(5, RandomPurpose::test, 0);
+  for (Frame& frame : frames) {
+    frame.shapes = {{Vec3(1e-3, 2e-3, 3e-3), 0.3, 1}, {Vec3(2e-3, 2e-3, 1e-3), 1, 0.7}};
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      frame.orientation.emplace_back(random.normal(), random.normal(), random.normal(), random.normal());
+      frame.scalars[quantity::shape].push_back(static_cast<double>(i % 2));
+    }
+  }
+  frames[1].scalars[quantity::shape] = {};
+  const auto file = writeSegment(folder / "a.vtkhdf", frames);
+  const SegmentReader reader(file);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    requireEqual(reader.load(i, flat), frames[i]);
+  const SegmentWriter writer(folder / "b.vtkhdf", "", frames.front(), false);
+  CHECK(writer.accepts(frames[1]));
+  Frame other = frames[2];
+  other.shapes[0].e1 = 0.4;
+  CHECK_FALSE(writer.accepts(other));
+  other = frames[2];
+  other.orientation.clear();
+  CHECK_FALSE(writer.accepts(other));
+}
+
 TEST_CASE("A segment without walls, species or quantities", "[io]") {
   const TemporaryFolder folder("bare");
   Frame bare;
