@@ -59,7 +59,8 @@ Camera zoom(const Camera& camera, double factor);
 Camera pan(const Camera& camera, double right, double up); ///< shares of the view height
 
 /// PNG with text chunks (tEXt/iTXt): provenance, view.
-void writePng(const Image& image, const std::filesystem::path& file, const std::map<std::string, std::string>& text);
+void writePng(const Image& image, const std::filesystem::path& file,
+              const std::map<std::string, std::string>& text);
 Image readPng(const std::filesystem::path& file, std::map<std::string, std::string>* text = nullptr);
 
 /// Share of pixels that differ by more than `perChannel` (0..255) in any channel; 1 when sizes differ.

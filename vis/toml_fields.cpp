@@ -64,6 +64,41 @@ void TomlFields::integer(const std::string& key, int& value, int low, int high) 
     fault(key, fmt::format("is {}; it must be a whole number from {} to {}", shown(*node), low, high));
 }
 
+void TomlFields::wholeNumbers(const std::string& key, std::vector<std::int64_t>& value) {
+  const toml::node* node = find(key);
+  if (!node) return;
+  const toml::array* list = node->as_array();
+  std::vector<std::int64_t> read;
+  bool good = list != nullptr;
+  for (std::size_t k = 0; good && k < list->size(); ++k) {
+    const auto v = list->get(k)->value_exact<std::int64_t>();
+    good = v.has_value();
+    if (good) read.push_back(*v);
+  }
+  if (good)
+    value = std::move(read);
+  else
+    fault(key, fmt::format("is {}; it must be a list of whole numbers, such as [3, 17]", shown(*node)));
+}
+
+void TomlFields::counts(const std::string& key, std::array<int, 3>& value, int low, int high) {
+  const toml::node* node = find(key);
+  if (!node) return;
+  const toml::array* list = node->as_array();
+  std::array<int, 3> read{};
+  bool good = list && list->size() == 3;
+  for (std::size_t k = 0; good && k < 3; ++k) {
+    const auto v = list->get(k)->value_exact<std::int64_t>();
+    good = v && *v >= low && *v <= high;
+    if (good) read[k] = static_cast<int>(*v);
+  }
+  if (good)
+    value = read;
+  else
+    fault(key, fmt::format("is {}; it must be three whole numbers from {} to {}, [x, y, z]", shown(*node),
+                           low, high));
+}
+
 void TomlFields::number(const std::string& key, double& value, double low, double high) {
   const toml::node* node = find(key);
   if (!node) return;
@@ -72,6 +107,8 @@ void TomlFields::number(const std::string& key, double& value, double low, doubl
     value = *v;
   else if (high < std::numeric_limits<double>::max())
     fault(key, fmt::format("is {}; it must be a number from {:g} to {:g}", shown(*node), low, high));
+  else if (low > -std::numeric_limits<double>::max())
+    fault(key, fmt::format("is {}; it must be a number of at least {:g}", shown(*node), low));
   else
     fault(key, fmt::format("is {}; it must be a finite number", shown(*node)));
 }

@@ -24,6 +24,8 @@ public:
   void integer(const std::string& key, int& value, int low, int high);
   void number(const std::string& key, double& value, double low = -std::numeric_limits<double>::max(),
               double high = std::numeric_limits<double>::max());
+  void wholeNumbers(const std::string& key, std::vector<std::int64_t>& value);       ///< [3, 17, 29]
+  void counts(const std::string& key, std::array<int, 3>& value, int low, int high); ///< [1, 0, 2]
   void text(const std::string& key, std::string& value);
   void choice(const std::string& key, std::string& value, const std::vector<std::string>& choices);
   void length(const std::string& key, double& value); ///< above 0; metres, or a text such as "2 cm"

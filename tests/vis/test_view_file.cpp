@@ -16,8 +16,26 @@ TEST_CASE("a view that is written and read is the same view") {
   view.camera.preset.clear();
   view.camera.position = Vec3(0.1, -1.0 / 3, 1e-17);
   view.camera.viewAngle = 20.5;
-  view.colouring = {
-      .quantity = "|spin|", .map = "dune", .range = ColourRange::fixed, .low = -1e-3, .high = 2.5};
+  view.colouring = {.quantity = "|spin|",
+                    .map = "dune",
+                    .reversed = true,
+                    .bands = 9,
+                    .range = ColourRange::fixed,
+                    .low = -1e-3,
+                    .high = 2.5};
+  view.clipBoxes = {{Vec3(-1, 0, 1e-3), Vec3(0.1, 0.2, 0.3), false}};
+  view.clipCylinders = {{Vec3(1, 2, 3), Vec3(0, 1, 1), 0.07, true}};
+  view.selection = {"z > 0.05 && speed < 0.1", Selection::Use::highlight};
+  view.forceChains = {true, 2e-3, 0.5, 1e-2, "grey"};
+  view.arrows = {"velocity", 0.02, 77, {0.5, 0.25, 0.125}};
+  view.tracks = {{3, 1000000000001}, 0.25};
+  view.slice = {true, "mean", "velocity.z", Vec3(1, 2, 3), Vec3(0, 0, 2), "cividis", ColourRange::fixed,
+                -1,   3,      0.5,          "velocity"};
+  view.periodicImages = {1, 0, 2};
+  view.grainScale = 0.3;
+  view.wallEdges = view.box = false;
+  view.meshes = true;
+  view.supersampling = 3;
   view.clips = {{Vec3(0, 0.003, 0), Vec3(0, -1, 0)}, {Vec3(1, 2, 3), Vec3(0.5, 0.5, 0)}};
   view.legend = false;
   view.wallOpacity = 0.3;
@@ -35,6 +53,21 @@ TEST_CASE("a view that is written and read is the same view") {
   CHECK(back.clips[1].normal == view.clips[1].normal);
   CHECK_FALSE(back.legend);
   CHECK(back.width == 641);
+  CHECK(back.colouring.bands == 9);
+  REQUIRE(back.clipBoxes.size() == 1);
+  CHECK(back.clipBoxes[0].upper == Vec3(0.1, 0.2, 0.3));
+  CHECK_FALSE(back.clipBoxes[0].inside);
+  REQUIRE(back.clipCylinders.size() == 1);
+  CHECK(back.clipCylinders[0].radius == 0.07);
+  CHECK(back.selection.expression == view.selection.expression);
+  CHECK(back.selection.use == Selection::Use::highlight);
+  CHECK(back.forceChains.highest == 1e-2);
+  CHECK(back.arrows.maximum == 77);
+  CHECK(back.tracks.grains == view.tracks.grains);
+  CHECK(back.slice.quantity == "velocity.z");
+  CHECK(back.slice.streamlines == "velocity");
+  CHECK(back.periodicImages == view.periodicImages);
+  CHECK(back.supersampling == 3);
 }
 
 TEST_CASE("lengths of a view may carry units") {
@@ -58,7 +91,7 @@ TEST_CASE("each fault of a view is a sentence") {
     const char* sentence;
   };
   const Fault faults[] = {
-      {"widht = 3", "v.toml:1: widht is not a known key; known are: axes, background"},
+      {"widht = 3", "v.toml:1: widht is not a known key; known are: arrows, axes, background"},
       {"\nwidth = 3.5", "v.toml:2: width is 3.5; it must be a whole number from 16 to 16384."},
       {"height = 8", "v.toml:1: height is 8; it must be a whole number from 16 to 16384."},
       {"legend = \"yes\"", "v.toml:1: legend is 'yes'; it must be true or false."},
@@ -79,6 +112,13 @@ TEST_CASE("each fault of a view is a sentence") {
       {"[colouring]\nrange = \"fixed\"\nlow = 2\nhigh = 2",
        "v.toml:4: colouring.high is 2; it must be above low, 2."},
       {"[[clip]]\nnormal = [0, 0, 0]", "v.toml:2: clip.normal is the zero vector"},
+      {"[[clip_box]]\nlower = [0, 0, 0]\nupper = [1, 0, 1]", "v.toml:3: clip_box.upper lies below lower"},
+      {"[[clip_cylinder]]\nradius = -1", "v.toml:2: clip_cylinder.radius is -1; it must be a length above 0"},
+      {"[selection]\nuse = \"keep\"",
+       "v.toml:2: selection.use is 'keep'; it must be one of: \"only\", \"hide\""},
+      {"[arrows]\nscale = -1", "v.toml:2: arrows.scale is -1; it must be a number of at least 0."},
+      {"[tracks]\ngrains = [1, 2.5]", "it must be a list of whole numbers, such as [3, 17]."},
+      {"periodic_images = [1, 99, 0]", "it must be three whole numbers from 0 to 20, [x, y, z]."},
       {"clip = 3", "v.toml:1: clip is 3; it must be a list of tables, [[clip]]."},
       {"camera = 1", "v.toml:1: camera is 1; it must be a table, [camera]."},
       {"width = ", "v.toml:1: this is not TOML"},
