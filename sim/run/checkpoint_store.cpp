@@ -12,9 +12,7 @@ namespace sandglass {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::int64_t stepOf(const fs::path& file) {
+std::int64_t checkpointStep(const fs::path& file) {
   const std::string stem = file.stem().string();
   std::int64_t step = -1;
   const auto [end, fault] = std::from_chars(stem.data(), stem.data() + stem.size(), step);
@@ -22,15 +20,13 @@ std::int64_t stepOf(const fs::path& file) {
                                                                                                        : -1;
 }
 
-} // namespace
-
 std::vector<fs::path> checkpointFiles(const fs::path& runFolder) {
   std::vector<fs::path> files;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(runFolder / "checkpoints", missing))
-    if (stepOf(entry.path()) >= 0) files.push_back(entry.path());
+    if (checkpointStep(entry.path()) >= 0) files.push_back(entry.path());
   std::sort(files.begin(), files.end(),
-            [](const fs::path& a, const fs::path& b) { return stepOf(a) < stepOf(b); });
+            [](const fs::path& a, const fs::path& b) { return checkpointStep(a) < checkpointStep(b); });
   return files;
 }
 
@@ -49,12 +45,12 @@ fs::path CheckpointStore::write(std::int64_t step, const Solver::State& state) {
 void CheckpointStore::thinOut() const {
   const auto files = checkpointFiles(folder_);
   if (files.size() <= 2) return;
-  const std::int64_t newest = std::max<std::int64_t>(schedule_.index(stepOf(files.back())), 0);
+  const std::int64_t newest = std::max<std::int64_t>(schedule_.index(checkpointStep(files.back())), 0);
   std::int64_t stride = 1;
   while (newest / stride > 20)
     stride *= 2;
   for (std::size_t i = 0; i + 2 < files.size(); ++i) {
-    const std::int64_t step = stepOf(files[i]);
+    const std::int64_t step = checkpointStep(files[i]);
     const bool spaced = schedule_.isDue(step) && schedule_.index(step) % stride == 0;
     if (!spaced) fs::remove(files[i]);
   }

@@ -29,6 +29,9 @@ private:
   Schedule schedule_;
 };
 
+/// Step in the name of a checkpoint file; -1 when it is none.
+std::int64_t checkpointStep(const std::filesystem::path& file);
+
 /// Checkpoints of a run folder in ascending order of step.
 std::vector<std::filesystem::path> checkpointFiles(const std::filesystem::path& runFolder);
 

@@ -11,15 +11,28 @@
 namespace sandglass {
 
 EnergyWatchdog::EnergyWatchdog(const Scene& scene) : scene_(scene), on_(true) {
-  const Vec3 extent = scene.domain.upper - scene.domain.lower;
+  measureFrom(scene.gravity);
+}
+
+void EnergyWatchdog::measureFrom(const Vec3& gravity) {
+  const Domain& domain = scene_.domain;
+  gravity_ = gravity;
+  on_ = std::all_of(scene_.contacts.begin(), scene_.contacts.end(),
+                    [](const ContactSpec& contact) { return contact.gap.empty(); });
+  lowestPotential_ = 0;
   for (int k = 0; k < 3; ++k) {
-    if (scene.domain.periodic[k] && scene.gravity[k] != 0) on_ = false;
-    lowestPotential_ -=
-        std::max(scene.gravity[k] * scene.domain.upper[k], scene.gravity[k] * scene.domain.lower[k]);
+    if (domain.periodic[static_cast<std::size_t>(k)] && gravity[k] != 0) on_ = false;
+    lowestPotential_ -= std::max(gravity[k] * domain.upper[k], gravity[k] * domain.lower[k]);
   }
-  for (const auto& contact : scene.contacts)
-    if (!contact.gap.empty()) on_ = false;
-  negligible_ = 1e-6 * scene.gravity.norm() * extent.norm();
+  negligible_ = 1e-6 * gravity.norm() * (domain.upper - domain.lower).norm();
+}
+
+void EnergyWatchdog::gravityChanged(const Vec3& gravity, const Solver& solver, const Energies& energies) {
+  measureFrom(gravity);
+  const Flow& flow = solver.flow();
+  const double mass = flow.massEntered + flow.massRecycled - flow.massDischarged;
+  ever_ = energies.total() - mass * lowestPotential_ - solver.wallWork();
+  recent_.clear();
 }
 
 void EnergyWatchdog::entered(const std::vector<GrainSeed>& grains, double measured) {
@@ -30,7 +43,7 @@ void EnergyWatchdog::entered(const std::vector<GrainSeed>& grains, double measur
     const double inertia = 0.4 * grain.radius * grain.radius; // per mass, of a solid sphere
     energy += grainMass(scene_, grain) *
               (0.5 * grain.velocity.squaredNorm() + 0.5 * inertia * grain.spin.squaredNorm() -
-               scene_.gravity.dot(grain.position) - lowestPotential_);
+               gravity_.dot(grain.position) - lowestPotential_);
   }
   energy = std::max(energy, measured - mass * lowestPotential_);
   ever_ += energy;
@@ -71,12 +84,14 @@ void EnergyWatchdog::check(const Solver& solver, const Energies& energies) {
 
 std::vector<std::byte> EnergyWatchdog::save() const {
   ByteWriter out;
-  out << on_ << ever_ << recent_ << largestWork_;
+  out << gravity_.x() << gravity_.y() << gravity_.z() << ever_ << recent_ << largestWork_;
   return out.take();
 }
 
 void EnergyWatchdog::load(const std::vector<std::byte>& bytes) {
-  ByteReader(bytes) >> on_ >> ever_ >> recent_ >> largestWork_;
+  Vec3 gravity;
+  ByteReader(bytes) >> gravity.x() >> gravity.y() >> gravity.z() >> ever_ >> recent_ >> largestWork_;
+  measureFrom(gravity);
 }
 
 } // namespace sandglass

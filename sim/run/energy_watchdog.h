@@ -27,6 +27,8 @@ public:
   /// Grains that a filling or rain has just added; `measured` is the energy that the solver found more
   /// afterwards, which is larger where they began in contact.
   void entered(const std::vector<GrainSeed>& grains, double measured = 0);
+  /// Potential energies are others from now on: what is there now is what came in.
+  void gravityChanged(const Vec3& gravity, const Solver& solver, const Energies& energies);
   /// To be called every few hundred steps. Throws RunError.
   void check(const Solver& solver, const Energies& energies);
 
@@ -35,7 +37,9 @@ public:
 
 private:
   static constexpr std::size_t window = 10;
+  void measureFrom(const Vec3& gravity);
   const Scene& scene_;
+  Vec3 gravity_ = Vec3::Zero();
   bool on_;
   double lowestPotential_ = 0; ///< [J/kg]
   double negligible_ = 0;      ///< [J/kg], round-off of the potential energy

@@ -4,8 +4,9 @@
 // Grains wait in the order in which they left (of one moment: ascending ids). The first in the queue of an
 // outlet takes a level place at random in the outlet's box, which depends on seed, id, life and the number of
 // tries alone, and there the lowest height with its own diameter free above it: over the surface of the bed,
-// whose voids are smaller, but below grains that are still falling. Where that is no longer inside the box or a
-// wall is in the way it tries again, a few times now and then at the next look; those behind it wait. A grain keeps its id, species, size and conserved quantities, counts a life more, and does not turn.
+// whose voids are smaller, but below grains that are still falling. Where that is no longer inside the box or
+// a wall is in the way it tries again, a few times now and then at the next look; those behind it wait. A
+// grain keeps its id, species, size and conserved quantities, counts a life more, and does not turn.
 
 #include "sim/scene/scene.h"
 #include "sim/solvers/solver.h"

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 namespace sandglass {
@@ -24,6 +25,27 @@ double secondsSince(Clock::time_point start) {
 constexpr double progressInterval = 0.1; ///< [s wall]
 constexpr double longestGroup = 0.05;    ///< [s wall] of steps between two looks at stop() and pause()
 constexpr const char* stageKey = "run/stage";
+
+/// Keeps simulated time from running ahead of a ratio to wall time.
+class Pace {
+public:
+  /// Whether the run is ahead at `time` [s] under this ratio; 0: never.
+  bool mustWait(double ratio, double time) {
+    if (ratio != ratio_ || ratio <= 0 || time < time_) restart(ratio, time);
+    return ratio > 0 && (time - time_) / ratio > secondsSince(wall_);
+  }
+  void restart(double ratio, double time) {
+    ratio_ = ratio;
+    time_ = time;
+    wall_ = Clock::now();
+  }
+
+private:
+  double ratio_ = 0, time_ = 0;
+  Clock::time_point wall_;
+};
+
+constexpr double shortGroup = 0.03; ///< [s wall] of steps at once when the speed is limited
 
 } // namespace
 
@@ -138,6 +160,41 @@ RunSummary Run::summary() const {
   return s;
 }
 
+void Run::change(EventSpec event) {
+  const auto& walls = impl_->scene.walls;
+  for (const auto& name : event.removeWalls)
+    if (std::none_of(walls.begin(), walls.end(), [&](const WallSpec& w) { return w.name == name; }))
+      throw InputError(fmt::format("the scene has no wall '{}' to remove", name));
+  if ((event.gravity && !event.gravity->allFinite()) || !std::isfinite(event.drag.value_or(0)) ||
+      event.drag.value_or(0) < 0)
+    throw InputError("gravity and drag are finite numbers, and drag is not negative");
+  const std::lock_guard lock(changesMutex_);
+  changes_.push_back(std::move(event));
+}
+
+bool Run::takeChanges() {
+  std::vector<EventSpec> changes;
+  {
+    const std::lock_guard lock(changesMutex_);
+    changes.swap(changes_);
+  }
+  if (changes.empty()) return false;
+  auto& events = impl_->scene.events;
+  const std::int64_t step = impl_->solver->step();
+  for (auto& change : changes) {
+    change.step = step;
+    // Before those of the file that are still to come.
+    events.insert(std::upper_bound(events.begin(), events.end(), step,
+                                   [](std::int64_t s, const EventSpec& e) { return s < e.step; }),
+                  change);
+  }
+  impl_->provenance["scene"] = sceneHash(impl_->scene);
+  impl_->recorder->writeScene();
+  for (const auto& change : changes)
+    if (onChanged) onChanged(change);
+  return true;
+}
+
 RunOutcome Run::execute() {
   Impl& run = *impl_;
   run.setUp();
@@ -180,6 +237,7 @@ RunOutcome Run::loop() {
   }
   live(true);
   bool shown = false; // the state in which the run was paused
+  Pace pace;
   std::int64_t safeStep = solver.step();
   while (!stages.done()) {
     if (stop_) {
@@ -187,8 +245,15 @@ RunOutcome Run::loop() {
       run.reportProgress(onProgress, true);
       return RunOutcome::stopped;
     }
+    takeChanges();
+    if (stages.applyEvents()) shown = false;
+    if (solver.step() == run.options.pauseAt) {
+      run.options.pauseAt = -1;
+      paused_ = true;
+    }
     std::int64_t allowed = std::max<std::int64_t>(1, static_cast<std::int64_t>(run.groupSteps));
     if (paused_) {
+      pace.restart(0, 0);
       const int asked = single_.exchange(0);
       if (asked <= 0) {
         if (!shown) live(true);
@@ -199,8 +264,16 @@ RunOutcome Run::loop() {
       allowed = std::min<std::int64_t>(allowed, asked);
       single_ += asked - static_cast<int>(allowed); // the rest in the next round
     }
+    const double limit = speedLimit_;
+    if (pace.mustWait(limit, solver.time())) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      continue;
+    }
+    if (limit > 0)
+      allowed = std::min(allowed, 1 + static_cast<std::int64_t>(limit * shortGroup / solver.stepSize()));
     const std::int64_t step = solver.step();
-    const std::int64_t until = std::min(stages.nextLook(), recorder.nextDue(step));
+    std::int64_t until = std::min(stages.nextLook(), recorder.nextDue(step));
+    if (run.options.pauseAt > step) until = std::min(until, run.options.pauseAt);
     const std::int64_t steps = std::min(allowed, until - step);
     if (paused_ && steps < allowed) single_ += static_cast<int>(allowed - steps);
     run.advance(steps);

@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct RunOptions {
   std::filesystem::path folder; ///< empty: nothing is written
   int threads = 0;              ///< 0: all cores
   bool resume = false;          ///< go on from the newest checkpoint in `folder`; from the start if none
+  std::int64_t pauseAt = -1;    ///< step at which the run pauses by itself; negative: none
   bool overwrite = false;       ///< delete the run that `folder` holds; else a run there is refused
   double liveInterval = 0;      ///< [s wall], offer a Frame to onLiveFrame at most this often; 0: never
   double checkpointWallInterval =
@@ -72,6 +74,7 @@ public:
   std::function<void(FramePtr)> onSavedFrame; ///< each frame of the output interval
   std::function<void(const ProbeSample&)> onSample;
   std::function<void(const Progress&)> onProgress;
+  std::function<void(const EventSpec&)> onChanged; ///< a change() has got its step
 
   /// Runs to the end or until stop(). Throws RunError (state kept in the last good checkpoint), InputError
   /// when the folder holds another run or grains cannot be placed. To be called once.
@@ -81,16 +84,27 @@ public:
   void stop() { stop_ = true; } ///< finish the step, write a checkpoint, return
   void pause(bool on) { paused_ = on; }
   void stepOnce(int steps) { single_ += steps; } ///< while paused: advance this many steps
+  /// Simulated seconds in a second of wall time at most; 0: as many as can be. No bit depends on it.
+  void limitSpeed(double ratio) { speedLimit_ = ratio; }
+
+  /// Something changes before the next step, paused or not: its step is set then, the scene gets it as an
+  /// event, and scene.toml in the folder is written anew. Safe from any thread. Throws InputError for a wall
+  /// that the scene does not have and for what is no number.
+  void change(EventSpec event);
 
   const Scene& scene() const;
   RunSummary summary() const; ///< from the thread of execute(), at any time
 
 private:
   RunOutcome loop();
+  bool takeChanges();
   struct Impl;
   std::unique_ptr<Impl> impl_;
   std::atomic<bool> stop_{false}, paused_{false};
   std::atomic<int> single_{0};
+  std::atomic<double> speedLimit_{0};
+  std::mutex changesMutex_;
+  std::vector<EventSpec> changes_; ///< not taken yet
 };
 
 } // namespace sandglass

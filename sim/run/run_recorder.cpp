@@ -108,7 +108,7 @@ void RunRecorder::open() {
   if (!writes()) return;
   removeParts(folder_);
   removeParts(folder_ / "checkpoints");
-  writeAtomically(folder_ / "scene.toml", writeScene(scene_));
+  writeScene();
   std::vector<std::string> columns;
   for (const auto& entry : probes_)
     for (const auto& value : entry.probe->values())
@@ -121,6 +121,10 @@ void RunRecorder::open() {
                                                  "residence_time", "x", "y", "z", "vx", "vy", "vz"},
                         dischargedBytes_);
   queue_.emplace(makeFrameWriter(folder_, scene_));
+}
+
+void RunRecorder::writeScene() const {
+  if (writes()) writeAtomically(folder_ / "scene.toml", sandglass::writeScene(scene_));
 }
 
 std::int64_t RunRecorder::nextDue(std::int64_t step) const {

@@ -42,6 +42,9 @@ public:
   /// Closes the segment, then writes solver and run state.
   void checkpoint(Solver& solver, Solver::State runState);
 
+  /// After the scene has got an event.
+  void writeScene() const;
+
   std::size_t frameCount() const { return frameCount_; }
   const Log& log() const { return log_; } ///< to the caller's log and log.txt
   /// "the last good checkpoint is FILE", or that there is none.

@@ -28,7 +28,8 @@ void StageControl::begin() {
   const StageSpec& stage = scene_.stages[stage_];
   for (const auto& wall : stage.removeWalls)
     solver_.removeWall(wall);
-  solver_.setDrag(stage.drag.value_or(0));
+  drag_ = stage.drag.value_or(0);
+  solver_.setDrag(drag_);
   solver_.beginStage(stage.name);
   solver_.advance(0); // forces without those walls: probes and frames of this step show them
   const double before = solver_.energies().total();
@@ -52,6 +53,37 @@ void StageControl::begin() {
   report(log_, LogLevel::info,
          fmt::format("stage '{}' begins at {:.6g} s with {} grains ({} placed now){}{}", stage.name,
                      solver_.time(), solver_.grains(), grains.size(), rain_ ? "; it rains" : "", walls));
+}
+
+bool StageControl::applyEvents() {
+  const std::uint64_t before = events_;
+  for (; events_ < scene_.events.size() && scene_.events[events_].step <= solver_.step(); ++events_) {
+    const EventSpec& event = scene_.events[events_];
+    std::string what;
+    for (const auto& wall : event.removeWalls) {
+      solver_.removeWall(wall);
+      what += fmt::format("; the wall '{}' is removed", wall);
+    }
+    if (event.gravity) {
+      solver_.setGravity(*event.gravity);
+      watchdog_.gravityChanged(*event.gravity, solver_, solver_.energies());
+      what += fmt::format("; gravity is ({:.6g}, {:.6g}, {:.6g}) m/s^2", event.gravity->x(),
+                          event.gravity->y(), event.gravity->z());
+    }
+    if (event.drag) {
+      drag_ = *event.drag;
+      solver_.setDrag(drag_);
+      what += fmt::format("; drag is {:.6g} 1/s", drag_);
+    }
+    if (event.endStage) {
+      endNow_ = true;
+      what += fmt::format("; the stage '{}' ends", name());
+    }
+    solver_.advance(0); // frames of this step show it
+    report(log_, LogLevel::info,
+           fmt::format("change at {:.6g} s, step {}{}", solver_.time(), solver_.step(), what));
+  }
+  return events_ != before;
 }
 
 void StageControl::checkMovedWalls(const std::vector<GrainSeed>& grains) const {
@@ -78,7 +110,10 @@ std::int64_t StageControl::nextLook() const {
   std::int64_t next = (stageSteps() / shortInterval + 1) * shortInterval;
   if (const auto& duration = scene_.stages[stage_].duration)
     next = std::min(next, std::max(stageSteps() + 1, stepsIn(*duration, solver_.stepSize())));
-  return start_ + next;
+  if (endNow_) next = stageSteps() + 1;
+  next += start_;
+  if (events_ < scene_.events.size()) next = std::min(next, scene_.events[events_].step);
+  return std::max(next, solver_.step() + 1);
 }
 
 void StageControl::left(const std::vector<LeftGrain>& grains) {
@@ -114,7 +149,7 @@ void StageControl::look() {
     for (const auto& sentence : rain_->shortfall(static_cast<double>(steps) * solver_.stepSize()))
       report(log_, LogLevel::warning, fmt::format("stage '{}', {}", scene_.stages[stage_].name, sentence));
   ++stage_;
-  begun_ = false;
+  begun_ = endNow_ = false;
   rain_.reset();
 }
 
@@ -122,7 +157,7 @@ bool StageControl::ended(bool longLook) const {
   const StageSpec& stage = scene_.stages[stage_];
   const std::int64_t steps = stageSteps();
   const double dt = solver_.stepSize();
-  if (stage.duration && steps >= stepsIn(*stage.duration, dt)) return true;
+  if (endNow_ || (stage.duration && steps >= stepsIn(*stage.duration, dt))) return true;
   if (steps % shortInterval != 0) return false;
   const bool raining = rain_ && !rain_->finished();
   const bool coming = raining || recycling_.waiting() > 0;
@@ -191,8 +226,8 @@ double StageControl::fraction() const {
 std::vector<std::byte> StageControl::save() const {
   ByteWriter out;
   out << static_cast<std::uint64_t>(stage_) << begun_ << start_ << massAtStart_ << grainsAtStart_ << starts_
-      << recycledAtStart_ << recycling_.save() << (rain_ ? rain_->state() : std::vector<std::int64_t>{})
-      << watchdog_.save();
+      << recycledAtStart_ << events_ << drag_ << endNow_ << recycling_.save()
+      << (rain_ ? rain_->state() : std::vector<std::int64_t>{}) << watchdog_.save();
   return out.take();
 }
 
@@ -201,12 +236,12 @@ void StageControl::load(const std::vector<std::byte>& bytes) {
   std::vector<std::int64_t> rain;
   std::vector<std::byte> watchdog, recycling;
   ByteReader(bytes) >> stage >> begun_ >> start_ >> massAtStart_ >> grainsAtStart_ >> starts_ >>
-      recycledAtStart_ >> recycling >> rain >> watchdog;
+      recycledAtStart_ >> events_ >> drag_ >> endNow_ >> recycling >> rain >> watchdog;
   stage_ = stage;
   watchdog_.load(watchdog);
   recycling_.load(recycling);
   rain_.reset();
-  if (begun_ && !done()) solver_.setDrag(scene_.stages[stage_].drag.value_or(0));
+  if (begun_ && !done()) solver_.setDrag(drag_);
   if (begun_ && !done()) rain_ = makeRain(scene_, scene_.stages[stage_].name);
   if (rain_) rain_->setState(rain);
 }

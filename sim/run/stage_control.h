@@ -29,7 +29,9 @@ public:
   /// Starts the current stage unless it has started: removes walls, places grains. Throws InputError when
   /// they do not fit.
   void begin();
-  /// The next step at which look() has something to do.
+  /// Applies what scene.events say for the steps up to now, each event once; whether there was one.
+  bool applyEvents();
+  /// The next step at which look() or applyEvents() has something to do.
   std::int64_t nextLook() const;
   /// After steps: rain, energy check, end conditions. Throws RunError from the energy check.
   void look();
@@ -64,6 +66,9 @@ private:
   std::int64_t start_ = 0; ///< step at which the stage began
   double massAtStart_ = 0; ///< [kg] discharged before the stage
   std::int64_t grainsAtStart_ = 0, recycledAtStart_ = 0;
+  std::uint64_t events_ = 0; ///< applied
+  double drag_ = 0;          ///< [1/s], of now
+  bool endNow_ = false;      ///< an event ends the stage
   std::unique_ptr<Rain> rain_;
   Recycling recycling_;
 };

@@ -86,6 +86,24 @@ void checkRecycling(const Scene& scene, FaultList& faults) {
   }
 }
 
+void checkEvents(const Scene& scene, FaultList& faults) {
+  std::int64_t before = 0;
+  for (std::size_t i = 0; i < scene.events.size(); ++i) {
+    const EventSpec& event = scene.events[i];
+    const std::string path = partPath("event", "", i);
+    if (event.step < before)
+      faults.wrong(path + ".step",
+                   fmt::format("but the event before it is at step {}; order events by step", before));
+    before = event.step;
+    for (const auto& name : event.removeWalls)
+      if (std::none_of(scene.walls.begin(), scene.walls.end(),
+                       [&](const WallSpec& w) { return w.name == name; }))
+        faults.wrong(path + ".remove_walls", fmt::format("but the scene has no [[wall]] '{}'", name));
+    if (!event.gravity && !event.drag && event.removeWalls.empty() && !event.endStage)
+      faults.about(path, "changes nothing; give it gravity, drag, remove_walls or end_stage");
+  }
+}
+
 void checkEndings(const Scene& scene, FaultList& faults) {
   double mass = 0;
   for (std::size_t i = 0; i < scene.stages.size(); ++i) {

@@ -7,6 +7,7 @@
 namespace sandglass {
 
 void checkRecycling(const Scene& scene, FaultList& faults); ///< after sizes are known to be sound
+void checkEvents(const Scene& scene, FaultList& faults);
 void checkEndings(const Scene& scene, FaultList& faults);   ///< likewise
 
 } // namespace sandglass

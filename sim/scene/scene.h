@@ -90,6 +90,17 @@ struct StageSpec {
   bool operator==(const StageSpec&) const = default;
 };
 
+/// What changes at a step of the run, whichever stage that falls into: what somebody changed while the run
+/// went on, kept so that the file gives the same bits when it is run again.
+struct EventSpec {
+  std::int64_t step = 0;                  ///< before which it happens, counted from the start of the run
+  std::optional<Vec3> gravity{};          ///< [m/s^2], from now on
+  std::optional<double> drag{};           ///< [1/s], until the next stage begins
+  std::vector<std::string> removeWalls{}; ///< from now on
+  bool endStage = false;                  ///< the stage ends after this step
+  bool operator==(const EventSpec&) const = default;
+};
+
 /// Where an outlet puts grains back: at the lowest free height over what lies in this box.
 struct RecycleSpec {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero(); ///< [m]
@@ -148,6 +159,7 @@ struct Scene {
   std::vector<FillSpec> fills;
   std::vector<OutletSpec> outlets;
   std::vector<StageSpec> stages;
+  std::vector<EventSpec> events; ///< in the order of their steps
   std::vector<ProbeSpec> probes;
   OutputSpec output;
   AccuracySpec accuracy;

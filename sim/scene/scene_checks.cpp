@@ -13,6 +13,7 @@ void checkScene(const Scene& scene, FaultList& faults) {
   checkContacts(scene, faults);
   checkWallsAndOutlets(scene, faults);
   checkStages(scene, faults);
+  checkEvents(scene, faults);
   checkFills(scene, faults);
   checkProbes(scene, faults);
   checkTimes(scene, faults);

@@ -187,6 +187,38 @@ const Keys& untilKeys() {
   return keys;
 }
 
+const Keys& eventKeys() {
+  static const Keys keys{{.name = "step",
+                          .type = integer,
+                          .unit = "1",
+                          .description = "step of the run before which it happens",
+                          .minimum = 0},
+                         {.name = "gravity",
+                          .type = vector,
+                          .unit = "m/s^2",
+                          .description = "acceleration of all grains from now on",
+                          .optional = true,
+                          .minimum = -1e6,
+                          .maximum = 1e6},
+                         {.name = "drag",
+                          .type = number,
+                          .unit = "1/s",
+                          .description = "rate at which velocities and spins decay until the next stage",
+                          .optional = true,
+                          .minimum = 0},
+                         {.name = "remove_walls",
+                          .type = texts,
+                          .unit = "1",
+                          .description = "walls that vanish",
+                          .fallback = std::vector<std::string>{}},
+                         {.name = "end_stage",
+                          .type = boolean,
+                          .unit = "1",
+                          .description = "the stage ends after this step",
+                          .fallback = false}};
+  return keys;
+}
+
 const Keys& probeKeys() {
   static const Keys keys{name,
                          {.name = "interval",

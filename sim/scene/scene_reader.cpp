@@ -49,6 +49,8 @@ public:
       readOutlet(*table, path);
     for (const auto& [table, path] : top_.subtables("stage"))
       readStage(*table, path);
+    for (const auto& [table, path] : top_.subtables("event", false))
+      readEvent(*table, path);
     for (const auto& [table, path] : top_.subtables("fill", false))
       readFill(*table, path);
     for (const auto& [table, path] : top_.subtables("probe"))
@@ -182,6 +184,12 @@ private:
       readKeys(untilIn, untilKeys(), stage);
       untilIn.reportUnknown();
     }
+    in.reportUnknown();
+  }
+
+  void readEvent(const ValueTable& table, const std::string& path) {
+    TableReader in(table, path, faults_);
+    readKeys(in, eventKeys(), scene_.events.emplace_back());
     in.reportUnknown();
   }
 

@@ -134,6 +134,10 @@ std::string sceneReference() {
   text += "## `[[stage]]`: what happens in turn\n\n" + table(stageKeys()) +
           "and `until = { … }`: the stage ends at the first condition met, and must have one.\n\n" +
           table(untilKeys());
+  text +=
+      "## `[[event]]`: what somebody changed while the run went on\n\nThe desktop adds these to the scene of "
+      "the run, in the order of their steps; running that scene again gives the same bits.\n\n" +
+      table(eventKeys());
   text += "## `[[probe]]`: what goes into series.csv\n\n" + table(probeKeys()) + kinds(probeKinds(), "kind");
   text += "## `[output]`\n\n" + table(outputKeys());
   text += "## `[accuracy]`: speed against error\n\nThe levels `draft`, `standard` and `reference` take 15, "

@@ -211,6 +211,24 @@ Parameters storeUntil(const StageSpec& stage) {
   return values;
 }
 
+void load(const Parameters& values, EventSpec& event) {
+  get(values, "step", event.step);
+  if (values.has("gravity")) event.gravity = values.vector("gravity");
+  get(values, "drag", event.drag);
+  get(values, "remove_walls", event.removeWalls);
+  get(values, "end_stage", event.endStage);
+}
+
+Parameters store(const EventSpec& event) {
+  Parameters values;
+  values.set("step", event.step);
+  if (event.gravity) values.set("gravity", *event.gravity);
+  put(values, "drag", event.drag);
+  values.set("remove_walls", event.removeWalls);
+  values.set("end_stage", event.endStage);
+  return values;
+}
+
 void load(const Parameters& values, ProbeSpec& probe) {
   get(values, "name", probe.name);
   get(values, "interval", probe.interval);

@@ -22,6 +22,7 @@ const Keys& fillKeys();  ///< beside kind, mixture and the kind's parameters
 const Keys& shareKeys(); ///< one entry of a mixture
 const Keys& stageKeys(); ///< beside `until`
 const Keys& untilKeys();
+const Keys& eventKeys();
 const Keys& probeKeys(); ///< beside kind and its parameters
 const Keys& outputKeys();
 const Keys& accuracyKeys();
@@ -38,6 +39,7 @@ void load(const Parameters& values, RecycleSpec& recycle);
 void load(const Parameters& values, FillSpec& fill);
 void load(const Parameters& values, Share& share);
 void load(const Parameters& values, StageSpec& stage); ///< of stageKeys and of untilKeys
+void load(const Parameters& values, EventSpec& event);
 void load(const Parameters& values, ProbeSpec& probe);
 void load(const Parameters& values, OutputSpec& output);
 void load(const Parameters& values, AccuracySpec& accuracy);
@@ -55,6 +57,7 @@ Parameters store(const FillSpec& fill);
 Parameters store(const Share& share);
 Parameters store(const StageSpec& stage);
 Parameters storeUntil(const StageSpec& stage);
+Parameters store(const EventSpec& event);
 Parameters store(const ProbeSpec& probe);
 Parameters store(const OutputSpec& output);
 Parameters store(const AccuracySpec& accuracy);

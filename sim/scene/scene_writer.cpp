@@ -163,6 +163,8 @@ public:
       all.push_back("until = " + inlineTable(lines(untilKeys(), storeUntil(s))));
       emit("[[stage]]", all);
     }
+    for (const auto& e : scene_.events)
+      emit("[[event]]", lines(eventKeys(), store(e)));
     for (const auto& p : scene_.probes) {
       Lines all = lines(probeKeys(), store(p));
       emit("[[probe]]", append(all, lines("kind", probeKinds(), p.what)));

@@ -46,6 +46,8 @@ public:
   virtual void removeWall(const std::string& name) = 0;
   /// From now on velocities and spins decay at this rate [1/s], beside all forces; 0: no more.
   virtual void setDrag(double rate) = 0;
+  /// From now on grains fall so; the velocities of this instant stay. Part of what save() gives.
+  virtual void setGravity(const Vec3& gravity) = 0; ///< [m/s^2]
   /// A stage of the scene begins now; for walls whose motion waits for one.
   virtual void beginStage(const std::string& name) {}
 

@@ -23,7 +23,7 @@ struct FakeFaults {
 class FakeSolver final : public Solver {
 public:
   FakeSolver(const Scene& scene, double stepSize, FakeFaults faults = {})
-      : scene_(scene), dt_(stepSize), faults_(faults) {
+      : scene_(scene), dt_(stepSize), faults_(faults), gravity_(scene.gravity) {
     for (const auto& kind : wallKinds())
       if (kind.name == scene.walls.front().shape.kind)
         shape_ = kind.make(scene.walls.front().shape.parameters);
@@ -39,15 +39,16 @@ public:
   }
   void removeWall(const std::string&) override { floor_ = false; }
   void setDrag(double rate) override { drag_ = rate; }
+  void setGravity(const Vec3& gravity) override { gravity_ = gravity; }
 
   void advance(std::int64_t steps) override {
     for (; steps > 0; --steps) {
       if (step_ + 1 == faults_.failAt) throw RunError("at 0.5 s the position of grain 3 is not a number");
       ++step_;
       for (auto& grain : grains_) {
-        grain.velocity += 0.5 * dt_ * scene_.gravity;
+        grain.velocity += 0.5 * dt_ * gravity_;
         grain.position += dt_ * grain.velocity;
-        grain.velocity += 0.5 * dt_ * scene_.gravity;
+        grain.velocity += 0.5 * dt_ * gravity_;
         if (floor_ && grain.position.z() < grain.radius && grain.velocity.z() < 0) grain.velocity.z() *= -1;
         grain.velocity *= std::exp(-drag_ * dt_);
         if (faults_.heatFrom >= 0 && step_ >= faults_.heatFrom) grain.velocity *= faults_.heat;
@@ -108,7 +109,7 @@ public:
     Energies e;
     for (const auto& grain : grains_) {
       e.translational += 0.5 * grainMass(scene_, grain) * grain.velocity.squaredNorm();
-      e.gravitational -= grainMass(scene_, grain) * scene_.gravity.dot(grain.position);
+      e.gravitational -= grainMass(scene_, grain) * gravity_.dot(grain.position);
     }
     return e;
   }
@@ -121,6 +122,7 @@ public:
 
   State save() override {
     ByteWriter out;
+    out << gravity_.x() << gravity_.y() << gravity_.z();
     out << step_ << nextId_ << floor_ << flow_ << static_cast<std::uint64_t>(grains_.size());
     for (const auto& g : grains_) {
       out << g.id << g.species << g.radius << g.life;
@@ -133,7 +135,7 @@ public:
   void load(const State& state) override {
     ByteReader in(state.at("fake"));
     std::uint64_t count = 0;
-    in >> step_ >> nextId_ >> floor_ >> flow_ >> count;
+    in >> gravity_.x() >> gravity_.y() >> gravity_.z() >> step_ >> nextId_ >> floor_ >> flow_ >> count;
     grains_.assign(count, {});
     for (auto& g : grains_) {
       in >> g.id >> g.species >> g.radius >> g.life;
@@ -148,6 +150,7 @@ private:
   double dt_, drag_ = 0;
   std::vector<LeftGrain> left_;
   FakeFaults faults_;
+  Vec3 gravity_;
   std::shared_ptr<const WallShape> shape_;
   std::int64_t step_ = 0, nextId_ = 0;
   bool floor_ = true;

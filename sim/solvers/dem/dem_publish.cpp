@@ -64,7 +64,7 @@ FramePtr DemSolver::frame() const {
     vectors(quantity::spin, [&](std::int32_t i) { return full.spin[i]; });
   if (wants(quantity::force))
     vectors(quantity::force,
-            [&](std::int32_t i) { return Vec3(full.force[i].vec() + grains_.mass(i) * scene_.gravity); });
+            [&](std::int32_t i) { return Vec3(full.force[i].vec() + grains_.mass(i) * gravity_); });
   if (wants(quantity::residenceTime))
     scalars(quantity::residenceTime,
             [&](std::int32_t i) { return time() - lives_.enteredAt(grains_.id[i]); });
@@ -115,7 +115,7 @@ Energies DemSolver::energies() const {
       for (int k = 0; k < 3; ++k)
         x[k] += extent[k] * grains_.image[i][k]; // so falling through a periodic side is no jump
     e.translational += 0.5 * m * full.velocity[i].squaredNorm();
-    e.gravitational -= m * scene_.gravity.dot(x);
+    e.gravitational -= m * gravity_.dot(x);
     if (grains_.turning) e.rotational += 0.5 * grains_.inertia(i) * full.spin[i].squaredNorm();
   }
   if (!stale_) e.elastic = pairForces_.storedEnergy(dt_) + wallContacts_.storedEnergy(grains_, walls_);
@@ -222,6 +222,7 @@ Solver::State DemSolver::save() {
   put(s, "walls.state", walls);
   put(s, "lives", lives_.lives());
   put(s, "entries", lives_.entries());
+  put(s, "gravity", std::vector<double>{gravity_.x(), gravity_.y(), gravity_.z()});
   put(s, "counters", std::vector<Counters>{{step_, nextId_, flow_}});
   return s;
 }
@@ -281,6 +282,9 @@ void DemSolver::load(const State& s) {
   restore("walls.feature", wallContacts_.featureArray());
   get(s, "lives", lives_.lives());
   get(s, "entries", lives_.entries());
+  std::vector<double> gravity;
+  get(s, "gravity", gravity);
+  gravity_ = {gravity.at(0), gravity.at(1), gravity.at(2)};
   std::vector<Counters> counters;
   get(s, "counters", counters);
   step_ = counters.at(0).step;

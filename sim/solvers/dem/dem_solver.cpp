@@ -43,7 +43,8 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
                      const std::vector<std::shared_ptr<const Law>>& added)
     : scene_(scene), laws_(stackWith(scene, added)), parallel_(options.threads),
       list_(scene.domain, laws_.historySize(), laws_.outputQuads(), laws_.hasEvents()), pairForces_(laws_),
-      wallContacts_(laws_), loop_(grains_, list_, pairForces_, wallContacts_, parallel_), lives_(scene) {
+      wallContacts_(laws_), loop_(grains_, list_, pairForces_, wallContacts_, parallel_),
+      gravity_(scene.gravity), lives_(scene) {
   const StepChoice choice = chooseStep(scene, laws_);
   if (choice.step > choice.stableLimit)
     throw InputError(fmt::format(
@@ -124,6 +125,18 @@ void DemSolver::removeWall(const std::string& name) {
   throw InputError(fmt::format("there is no wall '{}' to remove", name));
 }
 
+void DemSolver::setGravity(const Vec3& gravity) {
+  prepare();
+  // Velocities are half a step behind: those of the full step stay when the kick that leads there is changed.
+  const Vec3 kick = 0.5 * dt_ * (gravity_ - gravity);
+  for (std::size_t i = 0; i < grains_.size(); ++i) {
+    Quad& v = grains_.motion[i];
+    v = {v.x + kick.x(), v.y + kick.y(), v.z + kick.z(), v.w};
+  }
+  gravity_ = gravity;
+  atFullStep_.valid = false;
+}
+
 void DemSolver::beginStage(const std::string& name) {
   markStage(walls_, name, time());
   placeWalls(walls_, time(), 0.0);
@@ -165,7 +178,7 @@ const DemSolver::FullStep& DemSolver::fullStep() const {
   evaluate(full.force, full.torque);
   for (std::size_t i = 0; i < n; ++i) {
     const double kick = 0.5 * dt_ * grains_.motion[i].w;
-    full.velocity[i] = grains_.motion[i].vec() + kick * full.force[i].vec() + 0.5 * dt_ * scene_.gravity;
+    full.velocity[i] = grains_.motion[i].vec() + kick * full.force[i].vec() + 0.5 * dt_ * gravity_;
     if (grains_.turning)
       full.spin[i] = grains_.spin(i) + 0.5 * dt_ / grains_.inertia(i) * full.torque[i].vec();
   }
@@ -219,7 +232,7 @@ void DemSolver::prepare() {
     const Quad* from = start.data();
     for (const std::int64_t i : fresh) {
       const Quad v = *from++;
-      const Vec3 before = v.vec() - 0.5 * dt_ * (v.w * force[i].vec() + scene_.gravity);
+      const Vec3 before = v.vec() - 0.5 * dt_ * (v.w * force[i].vec() + gravity_);
       grains_.motion[i] = {before.x(), before.y(), before.z(), v.w};
       if (!grains_.turning) continue;
       const Quad u = *from++;
@@ -259,7 +272,7 @@ void DemSolver::stepOnce() {
   DeepestOverlap deepest;
   wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
   wallContacts_.tally(grains_, walls_, step_ == 0 ? 0.0 : dt_); // the work since the step before
-  const auto report = loop_.step(dt_, scene_.gravity, 0.25 * smallestRadius_ / dt_, events, deepest);
+  const auto report = loop_.step(dt_, gravity_, 0.25 * smallestRadius_ / dt_, events, deepest);
   checkOverlap(deepest);
   if (report.bad) reportBadMotion();
   if (!events.empty()) applyEvents(events);

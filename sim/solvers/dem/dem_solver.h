@@ -29,6 +29,7 @@ public:
   void add(const std::vector<GrainSeed>& grains) override;
   void removeWall(const std::string& name) override;
   void setDrag(double rate) override { drag_ = rate; }
+  void setGravity(const Vec3& gravity) override;
   void beginStage(const std::string& name) override;
   void advance(std::int64_t steps) override;
 
@@ -103,6 +104,7 @@ private:
   bool stale_ = true;                   ///< list and forces are not those of the grains and walls now
   std::vector<std::int64_t> newcomers_; ///< ids of grains whose velocities are still those of the full step
   double drag_ = 0;                     ///< [1/s]
+  Vec3 gravity_;                        ///< [m/s^2], of now
   Flow flow_;
   GrainLives lives_;
   std::vector<LeftGrain> left_;
