@@ -33,6 +33,12 @@ const std::vector<Definition>& definitions() {
       {"inferno",
        Between::lab,
        {0x000004, 0x1b0c42, 0x4b0c6b, 0x781c6d, 0xa52c60, 0xcf4446, 0xed6925, 0xfb9a06, 0xf7d03c, 0xfcffa4}},
+      {"magma",
+       Between::lab,
+       {0x000004, 0x180f3d, 0x440f76, 0x721f81, 0x9e2f7f, 0xcd4071, 0xf1605d, 0xfd9668, 0xfeca8d, 0xfcfdbf}},
+      {"plasma",
+       Between::lab,
+       {0x0d0887, 0x46039f, 0x7201a8, 0x9c179e, 0xbd3786, 0xd8576b, 0xed7953, 0xfb9f3a, 0xfdca26, 0xf0f921}},
       {"dune", Between::lab, {0x17447f, 0x006a94, 0x3a9094, 0x8aaf8a, 0xd8c685, 0xf9e1bb}},
       {"grey", Between::lab, {0x262626, 0xf1f1f1}},
       {"coolwarm", Between::diverging, {0x3b4cc0, 0xb40426}},
@@ -53,7 +59,7 @@ Rgb unpack(std::uint32_t c) {
 
 } // namespace
 
-ColourMap::ColourMap(const std::string& name) {
+ColourMap::ColourMap(const std::string& name, bool reversed, int bands) {
   const auto& all = definitions();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const Definition& d) { return d.name == name; });
@@ -64,6 +70,7 @@ ColourMap::ColourMap(const std::string& name) {
     discrete_ = true;
     for (const auto stop : found->stops)
       table_.push_back(unpack(stop));
+    if (reversed) std::reverse(table_.begin(), table_.end());
     return;
   }
   vtkNew<vtkColorTransferFunction> function;
@@ -84,12 +91,20 @@ ColourMap::ColourMap(const std::string& name) {
       entry[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(rgb[k], 0.0, 1.0)));
     table_.push_back(entry);
   }
+  if (reversed) std::reverse(table_.begin(), table_.end());
+  if (bands <= 0) return;
+  const std::vector<Rgb> smooth = std::move(table_);
+  table_.clear();
+  for (int k = 0; k < bands; ++k)
+    table_.push_back(
+        smooth[static_cast<std::size_t>(bands == 1 ? tableSize / 2 : k * (tableSize - 1) / (bands - 1))]);
+  banded_ = true;
 }
 
 Rgb ColourMap::at(double share) const {
   if (std::isnan(share)) return {150, 150, 150};
   const double n = static_cast<double>(table_.size());
-  const double scaled = discrete_ ? std::floor(share * n) : std::round(share * (n - 1));
+  const double scaled = discrete_ || banded_ ? std::floor(share * n) : std::round(share * (n - 1));
   return table_[static_cast<std::size_t>(std::clamp(scaled, 0.0, n - 1))];
 }
 

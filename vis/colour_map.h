@@ -1,7 +1,7 @@
 #pragma once
 // Colour maps. Sequential ones rise evenly in lightness, so that equal steps of a quantity look equal and the
 // map survives grey printing and colour-blind eyes.
-//   viridis, inferno  Smith and van der Walt 2015 (CC0), ten stops each
+//   viridis, inferno, magma, plasma  Smith and van der Walt 2015 (CC0), ten stops each
 //   cividis           Nunez, Anderton, Renslow 2018, doi:10.1371/journal.pone.0199239, ten stops
 //   dune              our own: L* from 29 to 91 in even steps, from deep blue over teal to sand
 //   grey              L* from 15 to 95
@@ -19,8 +19,9 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 class ColourMap {
 public:
-  /// Throws InputError naming the maps there are.
-  explicit ColourMap(const std::string& name);
+  /// `reversed`: from the end to the start; `bands` more than 0: so many steps. Throws InputError naming the
+  /// maps there are.
+  explicit ColourMap(const std::string& name, bool reversed = false, int bands = 0);
 
   /// Colour of a share of the range, clamped to 0..1; NaN is grey. A discrete map takes its first colours
   /// for the first eighths of the range.
@@ -29,9 +30,11 @@ public:
   /// Colour of a counted thing: the discrete map repeats after eight, others are sampled at eight places.
   Rgb ofIndex(long index) const;
 
+  bool discrete() const { return discrete_; }
+
 private:
   std::vector<Rgb> table_;
-  bool discrete_ = false;
+  bool discrete_ = false, banded_ = false;
 };
 
 } // namespace sandglass::vis

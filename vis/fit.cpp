@@ -2,6 +2,7 @@
 
 #include "vis/camera.h"
 #include "vis/overlay.h"
+#include "vis/periodic_images.h"
 #include "vis/visible_grains.h"
 
 #include <algorithm>
@@ -89,8 +90,12 @@ std::vector<Vec3> fitPoints(const Frame& frame, const GrainExtent& grains) {
 Camera fitCamera(const Frame& frame, const View& view, const GrainExtent& grains) {
   if (view.camera.preset.empty()) return view.camera;
   const bool titled = !view.title.empty() || frame.provenance.contains("title");
-  return resolve(view.camera, fitPoints(frame, grains),
-                 thinDirection(domainBox(frame), frame.domain.periodic),
+  const std::vector<Vec3> once = fitPoints(frame, grains);
+  std::vector<Vec3> points;
+  for (const Vec3& shift : imageShifts(frame.domain, view))
+    for (const Vec3& p : once)
+      points.push_back(p + shift);
+  return resolve(view.camera, points, thinDirection(domainBox(frame), frame.domain.periodic),
                  static_cast<double>(view.width) / view.height, freeArea(view, titled));
 }
 

@@ -89,7 +89,8 @@ Frameable freeArea(const View& view, bool titled) {
   c.width = view.width;
   c.height = view.height;
   const float s = scaleOf(c), w = static_cast<float>(c.width), h = static_cast<float>(c.height);
-  const bool legend = view.legend && view.grains && !view.colouring.quantity.empty();
+  const bool legend = view.legend && ((view.grains && !view.colouring.quantity.empty()) ||
+                                      view.forceChains.shown || view.slice.shown);
   Frameable area;
   area.left = margin * s / w;
   area.right = 1 - (legend ? legendSpace : margin) * s / w;
@@ -110,27 +111,29 @@ bool Overlay::Paint(vtkContext2D* painter) {
   if (!content.time.empty())
     write(painter, content, w - margin * s, top, content.time, textSize + 1, Side::right, false,
           content.backed);
-  if (content.legend) {
-    if (content.legend->entries.empty())
-      paintLegend(painter, *content.legend);
+  const float space = h / static_cast<float>(std::max<std::size_t>(content.legends.size(), 1));
+  for (std::size_t k = 0; k < content.legends.size(); ++k) {
+    const float middle = h - (static_cast<float>(k) + 0.5F) * space;
+    if (content.legends[k].entries.empty())
+      paintLegend(painter, content.legends[k], middle, space);
     else
-      paintEntries(painter, *content.legend);
+      paintEntries(painter, content.legends[k], middle);
   }
   if (content.axes) paintAxes(painter, *content.axes);
   if (content.metresPerPixel > 0) paintScaleBar(painter);
   return true;
 }
 
-void Overlay::paintLegend(vtkContext2D* painter, const Legend& legend) const {
-  const float s = scale(), w = static_cast<float>(content.width), h = static_cast<float>(content.height);
+void Overlay::paintLegend(vtkContext2D* painter, const Legend& legend, float middle, float space) const {
+  const float s = scale(), w = static_cast<float>(content.width);
   const float right = w - margin * s, left = std::round(w - (legendSpace - margin) * s);
-  const float height = std::round(0.5F * h), bottom = std::round(0.5F * (h - height)),
+  const float height = std::round(0.5F * space), bottom = std::round(middle - 0.5F * height),
               wide = std::round(barWidth * s);
   const int rows = static_cast<int>(height);
   for (int row = 0; row < rows; ++row)
     fill(painter, toUnit(legend.map.at((row + 0.5) / rows)), left, bottom + static_cast<float>(row), wide, 1);
 
-  const Ticks ticks = niceTicks(legend.low, legend.high, 6);
+  const Ticks ticks = niceTicks(legend.low, legend.high, space < 300 * s ? 4 : 6);
   const bool empty = !(legend.high > legend.low);
   for (std::size_t k = 0; k < ticks.values.size(); ++k) {
     const double share = empty ? 0.5 : (ticks.values[k] - legend.low) / (legend.high - legend.low);
@@ -147,14 +150,14 @@ void Overlay::paintLegend(vtkContext2D* painter, const Legend& legend) const {
     write(painter, content, right, y, title, textSize, Side::right);
 }
 
-void Overlay::paintEntries(vtkContext2D* painter, const Legend& legend) const {
-  const float s = scale(), w = static_cast<float>(content.width), h = static_cast<float>(content.height);
+void Overlay::paintEntries(vtkContext2D* painter, const Legend& legend, float middle) const {
+  const float s = scale(), w = static_cast<float>(content.width);
   const float left = std::round(w - (legendSpace - margin) * s), line = 24 * s, side = std::round(14 * s);
-  float y = 0.5F * h + 0.5F * line * static_cast<float>(legend.entries.size());
+  float y = middle + 0.5F * line * static_cast<float>(legend.entries.size());
   write(painter, content, left, y + line, legend.name, textSize, Side::left);
   for (std::size_t k = 0; k < legend.entries.size(); ++k, y -= line) {
-    fill(painter, toUnit(legend.map.ofIndex(static_cast<long>(k))), left, std::round(y - side / 2), side,
-         side);
+    fill(painter, toUnit(legend.map.ofIndex(legend.firstEntry + static_cast<long>(k))), left,
+         std::round(y - side / 2), side, side);
     write(painter, content, left + side + 8 * s, y, legend.entries[k], textSize, Side::left);
   }
 }

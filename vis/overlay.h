@@ -3,7 +3,7 @@
 // layout is in one place and nothing overlaps.
 
 #include "vis/camera.h"
-#include "vis/colour_map.h"
+#include "vis/legend.h"
 
 #include <vtkContextItem.h>
 
@@ -14,16 +14,9 @@
 
 namespace sandglass::vis {
 
-struct Legend {
-  std::string name, unit;
-  ColourMap map{"viridis"};
-  double low = 0, high = 1;
-  std::vector<std::string> entries; ///< named things instead of a range (species)
-};
-
 struct OverlayContent {
-  std::string title, time; ///< empty: left out
-  std::optional<Legend> legend;
+  std::string title, time;        ///< empty: left out
+  std::vector<Legend> legends;    ///< below each other at the right edge
   std::optional<CameraAxes> axes; ///< directions as seen by this camera
   double metresPerPixel = 0;      ///< at the target; 0: no scale bar
   std::array<double, 3> background{1, 1, 1};
@@ -43,8 +36,8 @@ public:
   bool Paint(vtkContext2D* painter) override;
 
 private:
-  void paintLegend(vtkContext2D* painter, const Legend& legend) const;
-  void paintEntries(vtkContext2D* painter, const Legend& legend) const;
+  void paintLegend(vtkContext2D* painter, const Legend& legend, float middle, float space) const;
+  void paintEntries(vtkContext2D* painter, const Legend& legend, float middle) const;
   void paintAxes(vtkContext2D* painter, const CameraAxes& axes) const;
   void paintScaleBar(vtkContext2D* painter) const;
   float scale() const;

@@ -8,7 +8,9 @@
 #include "vis/gl/vtk_messages.h"
 #include "vis/grain_colours.h"
 #include "vis/grain_layer.h"
+#include "vis/history.h"
 #include "vis/overlay.h"
+#include "vis/pick.h"
 #include "vis/read_back.h"
 #include "vis/text_style.h"
 #include "vis/ticks.h"
@@ -158,6 +160,7 @@ struct Renderer::Impl {
   vtkNew<Overlay> overlay;
   vtkNew<vtkContextActor> overlayActor;
   VisibleGrains visible;
+  std::shared_ptr<const History> history;
   Camera camera;
   int width = 0, height = 0;
   std::string glStrings;
@@ -179,9 +182,9 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   Impl& d = *impl_;
   d.width = view.width;
   d.height = view.height;
-  d.visible = visibleGrains(frame, view);
+  d.visible = visibleGrains(frame, view, d.history.get());
   const auto subset = evenSubset(d.visible.index.size(), view.maximumGrains);
-  const GrainColours colours = grainColours(frame, view.colouring, d.visible, subset);
+  const GrainColours colours = grainColours(frame, view, d.visible, subset, d.history.get());
   const Eigen::AlignedBox3d box = domainBox(frame);
 
   OverlayContent& over = d.overlay->content;
@@ -196,7 +199,8 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   const auto sceneTitle = frame.provenance.find("title");
   over.title = view.title.empty() && sceneTitle != frame.provenance.end() ? sceneTitle->second : view.title;
   over.time = view.timeStamp ? timeText(frame.time) : "";
-  over.legend = view.legend && view.grains ? colours.legend : std::nullopt;
+  over.legends.clear();
+  if (view.legend && view.grains && colours.legend) over.legends.push_back(*colours.legend);
   GrainExtent extent;
   if (!view.camera.preset.empty()) extent.add(frame);
   d.camera = fitCamera(frame, view, extent);
@@ -208,7 +212,7 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   d.window->SetSize(over.width, over.height);
   d.scene->SetUseFXAA(finer == 1 && view.maximumGrains == 0); // a moving picture needs speed
   d.grains.show(d.visible, subset, colours.ofGrain);
-  d.walls.show(frame, view, box, static_cast<float>(finer));
+  d.walls.show(frame, view, d.camera, box, static_cast<float>(finer));
   d.setCamera(box);
   d.overlay->Modified();
   d.scene->DrawOn();
@@ -216,6 +220,10 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   Image image = d.render(view);
   d.release();
   return image;
+}
+
+void Renderer::setHistory(std::shared_ptr<const History> history) {
+  impl_->history = std::move(history);
 }
 
 Image Renderer::draw(const analysis::Curve& curve, int width, int height) {

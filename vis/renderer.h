@@ -22,6 +22,8 @@ struct Image {
   std::vector<std::uint8_t> rgba;
 };
 
+class History;
+
 enum class GlBackend { automatic, osmesa, egl };
 
 struct PickResult {
@@ -36,6 +38,9 @@ public:
 
   /// Draws frame with view. The same frame, view and back end give the same pixels.
   Image draw(const Frame& frame, const View& view);
+
+  /// What the next pictures need of other frames (original positions, tracks); null: nothing.
+  void setHistory(std::shared_ptr<const History> history);
 
   /// Draws a chart with VTK charts.
   Image draw(const analysis::Curve& curve, int width, int height);

@@ -1,8 +1,16 @@
 #include "vis/visible_grains.h"
 
+#include "analysis/selection.h"
+#include "sim/base/error.h"
+#include "vis/clip.h"
+#include "vis/periodic_images.h"
+#include "vis/superellipsoid.h"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sandglass::vis {
 
@@ -18,27 +26,69 @@ double substituteRadius(const Frame& frame) {
   return spacing > 0 ? spacing / 2 : 1;
 }
 
-} // namespace
-
-bool isClipped(const std::vector<ClipPlane>& clips, const Vec3& point) {
-  return std::any_of(clips.begin(), clips.end(),
-                     [&](const ClipPlane& c) { return (point - c.point).dot(c.normal) < 0; });
+/// Index into the frame's shapes for each grain, -1 for spheres; empty when all are spheres.
+std::vector<std::int32_t> shapesOf(const Frame& frame) {
+  if (frame.shapes.empty() || frame.size() == 0) return {};
+  std::vector<std::int32_t> result(frame.size(), 0);
+  const auto found = frame.scalars.find(quantity::shape);
+  const auto last = static_cast<double>(frame.shapes.size()) - 1;
+  for (std::size_t i = 0; found != frame.scalars.end() && i < frame.size(); ++i) {
+    const double value = found->second[i];
+    if (!(value >= -1 && value <= last))
+      throw InputError(
+          fmt::format("grain {} has the shape {:g}; the frame knows the shapes 0 to {:g}, and -1 "
+                      "for a sphere",
+                      frame.id[i], value, last));
+    result[i] = static_cast<std::int32_t>(value);
+  }
+  return result;
 }
 
-VisibleGrains visibleGrains(const Frame& frame, const View& view) {
+} // namespace
+
+std::vector<double> drawnRadii(const Frame& frame) {
+  const auto known = frame.scalars.find(quantity::radius);
+  std::vector<double> radii = known != frame.scalars.end()
+                                  ? known->second
+                                  : std::vector<double>(frame.size(), substituteRadius(frame));
+  const auto shape = shapesOf(frame);
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    if (shape[i] >= 0) radii[i] = surroundingRadius(frame.shapes[static_cast<std::size_t>(shape[i])]);
+  return radii;
+}
+
+VisibleGrains visibleGrains(const Frame& frame, const View& view, const History* history) {
   VisibleGrains result;
   if (!view.grains) return result;
-  const bool hasRadius = frame.scalars.contains(quantity::radius);
-  const std::vector<double>* radius = hasRadius ? &frame.scalar(quantity::radius) : nullptr;
-  const double substitute = hasRadius ? 0 : substituteRadius(frame);
-  for (std::size_t i = 0; i < frame.size(); ++i) {
-    const double r = radius ? (*radius)[i] : substitute;
-    if (!frame.position[i].allFinite() || !(r > 0) || isClipped(view.clips, frame.position[i])) continue;
-    result.index.push_back(i);
-    result.id.push_back(i < frame.id.size() ? frame.id[i] : static_cast<std::int64_t>(i));
-    result.position.push_back(frame.position[i]);
-    result.radius.push_back(r);
-  }
+  std::vector<std::uint8_t> chosen;
+  const auto use = view.selection.use;
+  if (!view.selection.expression.empty())
+    chosen = analysis::selectGrains(frame, view.selection.expression, [&](const std::string& name) {
+      return quantityValues(frame, name, history);
+    });
+  const auto isShown = [&](std::size_t i) {
+    return chosen.empty() || use == Selection::Use::highlight ||
+           (use == Selection::Use::only) == (chosen[i] != 0);
+  };
+  const std::vector<double> radius = drawnRadii(frame);
+  const auto shape = shapesOf(frame);
+  result.shapes = frame.shapes;
+  for (GrainShape& s : result.shapes)
+    s.semiAxes *= view.grainScale;
+  for (const Vec3& shift : imageShifts(frame.domain, view))
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      const Vec3 place = frame.position[i] + shift;
+      if (!place.allFinite() || !(radius[i] > 0) || !isShown(i) || isClipped(view, place)) continue;
+      result.index.push_back(i);
+      result.id.push_back(i < frame.id.size() ? frame.id[i] : static_cast<std::int64_t>(i));
+      result.position.push_back(place);
+      result.radius.push_back(radius[i] * view.grainScale);
+      if (!chosen.empty() && use == Selection::Use::highlight) result.pale.push_back(chosen[i] == 0);
+      if (shape.empty()) continue;
+      result.shape.push_back(shape[i]);
+      result.orientation.push_back(frame.orientation.empty() ? Eigen::Quaterniond::Identity()
+                                                             : frame.orientation[i].normalized());
+    }
   return result;
 }
 
@@ -48,23 +98,6 @@ std::vector<std::size_t> evenSubset(std::size_t size, int count) {
   for (std::size_t k = 0; k < kept; ++k)
     result[k] = k * size / kept;
   return result;
-}
-
-PickResult pickAlong(const Ray& ray, const VisibleGrains& grains) {
-  // Sphere |o + t d - c|^2 = r^2: t = b - sqrt(b^2 - (|oc|^2 - r^2)) with oc = c - o, b = d . oc.
-  PickResult best;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < grains.position.size(); ++i) {
-    const Vec3 oc = grains.position[i] - ray.origin;
-    const double b = ray.direction.dot(oc);
-    const double missed = (oc - b * ray.direction).squaredNorm(), r = grains.radius[i];
-    if (missed > r * r) continue;
-    const double t = b - std::sqrt(r * r - missed);
-    if (t <= 0 || t >= nearest) continue;
-    nearest = t;
-    best = {grains.id[i], ray.origin + t * ray.direction};
-  }
-  return best;
 }
 
 } // namespace sandglass::vis

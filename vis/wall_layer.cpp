@@ -1,9 +1,11 @@
 #include "vis/wall_layer.h"
 
+#include "vis/periodic_images.h"
 #include "vis/text_style.h"
 
 #include <vtkCellArray.h>
-#include <vtkPlane.h>
+#include <vtkFloatArray.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -29,16 +31,6 @@ void giveMapper(vtkActor* actor) {
   actor->SetMapper(mapper);
 }
 
-void clip(vtkActor* actor, const std::vector<ClipPlane>& clips) {
-  actor->GetMapper()->RemoveAllClippingPlanes();
-  for (const auto& c : clips) {
-    vtkNew<vtkPlane> plane;
-    plane->SetOrigin(c.point.data());
-    plane->SetNormal(c.normal.data());
-    actor->GetMapper()->AddClippingPlane(plane);
-  }
-}
-
 } // namespace
 
 WallLayer::WallLayer() {
@@ -56,17 +48,22 @@ WallLayer::WallLayer() {
       "  fragOutput0.a = min(1.0, fragOutput0.a * (0.6 + 2.4 * slant * slant));\n",
       false);
   faces_->ForceTranslucentOn();
-  for (vtkActor* lines : {edges_.Get(), box_.Get()})
-    lines->GetProperty()->LightingOff();
+  for (vtkActor* lines : {edges_.Get(), box_.Get()}) {
+    lines->GetProperty()->SetAmbient(1); // lit, since a clip needs the place of a fragment, but in one colour
+    lines->GetProperty()->SetDiffuse(0);
+  }
 }
 
-void WallLayer::show(const Frame& frame, const View& view, const Eigen::AlignedBox3d& box, float lineScale) {
+void WallLayer::show(const Frame& frame, const View& view, const Camera& camera,
+                     const Eigen::AlignedBox3d& box, float lineScale) {
   std::vector<std::shared_ptr<const WallShape>> wanted;
   if (view.walls)
     for (const auto& wall : frame.walls)
       if (wall.active || view.removedWalls) wanted.push_back(wall.shape);
-  if (wanted != shown_ || !box.isApprox(builtBox_)) {
+  const std::vector<Vec3> shifts = imageShifts(frame.domain, view);
+  if (wanted != shown_ || shifts != shifts_ || !box.isApprox(builtBox_)) {
     shown_ = wanted;
+    shifts_ = shifts;
     rebuild(box);
   }
   const auto paint = [&](vtkActor* actor, double strength) {
@@ -86,10 +83,10 @@ void WallLayer::show(const Frame& frame, const View& view, const Eigen::AlignedB
   const auto& periodic = frame.domain.periodic;
   const bool anyPeriodic = std::any_of(periodic.begin(), periodic.end(), [](bool p) { return p; });
   faces_->SetVisibility(!shown_.empty() && view.wallOpacity > 0);
-  edges_->SetVisibility(!shown_.empty());
-  box_->SetVisibility(view.walls && (anyPeriodic || frame.walls.empty()));
-  for (vtkActor* actor : {faces_.Get(), edges_.Get()})
-    clip(actor, view.clips);
+  edges_->SetVisibility(!shown_.empty() && view.wallEdges);
+  box_->SetVisibility(view.walls && view.box && (anyPeriodic || frame.walls.empty()));
+  clipFaces_.show(view, camera);
+  clipEdges_.show(view, camera);
 }
 
 void WallLayer::rebuild(const Eigen::AlignedBox3d& box) {
@@ -99,16 +96,18 @@ void WallLayer::rebuild(const Eigen::AlignedBox3d& box) {
   vtkNew<vtkCellArray> triangles, lines;
   for (const auto& shape : shown_) {
     const TriangleMesh mesh = shape->mesh(box);
-    const vtkIdType first = points->GetNumberOfPoints();
-    for (const auto& p : mesh.points)
-      points->InsertNextPoint(p.data());
-    for (const auto& t : mesh.triangles) {
-      const vtkIdType corners[] = {first + t[0], first + t[1], first + t[2]};
-      triangles->InsertNextCell(3, corners);
-    }
-    for (const auto& e : mesh.edges) {
-      const vtkIdType ends[] = {first + e[0], first + e[1]};
-      lines->InsertNextCell(2, ends);
+    for (const Vec3& shift : shifts_) {
+      const vtkIdType first = points->GetNumberOfPoints();
+      for (const Vec3& p : mesh.points)
+        points->InsertNextPoint(Vec3(p + shift).data());
+      for (const auto& t : mesh.triangles) {
+        const vtkIdType corners[] = {first + t[0], first + t[1], first + t[2]};
+        triangles->InsertNextCell(3, corners);
+      }
+      for (const auto& e : mesh.edges) {
+        const vtkIdType ends[] = {first + e[0], first + e[1]};
+        lines->InsertNextCell(2, ends);
+      }
     }
   }
   const auto fill = [](vtkActor* actor, vtkPoints* p, vtkCellArray* polygons, vtkCellArray* segments) {
@@ -129,6 +128,11 @@ void WallLayer::rebuild(const Eigen::AlignedBox3d& box) {
     dataOf(faces_)->ShallowCopy(normals->GetOutput());
   }
   fill(edges_, points, nullptr, lines);
+  vtkNew<vtkFloatArray> upright; // any normal will do: VTK lights, and so locates, only lines that have one
+  upright->SetNumberOfComponents(3);
+  upright->SetNumberOfTuples(points->GetNumberOfPoints());
+  upright->Fill(1);
+  dataOf(edges_)->GetPointData()->SetNormals(upright);
 
   vtkNew<vtkPoints> corners;
   corners->SetDataTypeToDouble();

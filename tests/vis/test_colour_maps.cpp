@@ -24,7 +24,7 @@ double lightness(const Rgb& c) {
 } // namespace
 
 TEST_CASE("sequential maps rise in lightness, each eighth by about an eighth") {
-  for (const auto& name : {"viridis", "cividis", "inferno", "dune", "grey"}) {
+  for (const auto& name : {"viridis", "cividis", "inferno", "magma", "dune", "grey"}) {
     INFO(name);
     const ColourMap map(name);
     const double all = lightness(map.at(1)) - lightness(map.at(0));
