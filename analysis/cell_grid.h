@@ -24,6 +24,8 @@ public:
   std::uint32_t original(std::size_t sorted) const { return original_[sorted]; }
   /// Coordinates along the grid's own three axes (the last is the row axis).
   const double* coordinates(int axis) const { return x_[axis].data(); }
+  /// Coordinate (0 x, 1 y, 2 z) that each axis of the grid is.
+  const std::array<int, 3>& axes() const { return order_; }
   double period(int axis) const { return axes_[axis].periodic ? axes_[axis].length : 0; }
 
   /// Calls run(begin, end, shift) for runs of sorted points that hold all points within r of `centre` (in

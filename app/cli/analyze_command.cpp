@@ -3,9 +3,9 @@
 #include "analysis/beverloo.h"
 #include "analysis/discharge.h"
 #include "analysis/packing.h"
-#include "analysis/pair_correlation.h"
 #include "analysis/series_data.h"
 #include "app/cli/analyze_flow.h"
+#include "app/cli/analyze_kinds.h"
 #include "app/cli/analyze_options.h"
 #include "app/cli/analyze_source.h"
 #include "app/cli/commands.h"
@@ -28,53 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace analysis;
 
-RegionOptions regionFor(const Source& source, const AnalyzeOptions& options, double diameter) {
-  RegionOptions region;
-  region.up = source.facts.up;
-  region.gates = source.facts.gates;
-  if (!options.margin.empty()) region.surfaceMargin = lengthOption("--margin", options.margin, diameter);
-  addLimits(options.limits, region);
-  return region;
-}
-
-void analyzeGr(const Source& source, const AnalyzeOptions& options, ResultFiles& files) {
-  const auto [from, to] = framesFor(source, options);
-  const FramePtr first = source.frames->load(from);
-  PairCorrelationOptions o;
-  o.diameter = diameterFor(options, *first);
-  o.estimator = parseEstimator(options.estimator);
-  o.rMax = lengthOption("--r-max", options.rMax, o.diameter);
-  o.bins = options.bins;
-  o.region = regionFor(source, options, o.diameter);
-  PairCorrelation correlation(o);
-  ProgressBar bar("g(r)");
-  for (std::size_t f = from; f <= to; ++f) {
-    correlation.add(*source.frames->load(f));
-    bar.update(static_cast<double>(f - from + 1) / static_cast<double>(to - from + 1), -1,
-               fmt::format("frame {}", f));
-  }
-  bar.finish();
-  auto result = correlation.result();
-  for (Curve* c : {&result.g, &result.coordination}) {
-    c->provenance["frame_indices"] = fmt::format("{}:{}", from, to);
-    stamp(*c, source, *first);
-    files.write(*c, source.prefix);
-  }
-  const auto& n = result.g.numbers;
-  const auto peak = std::max_element(result.g.series[0].y.begin(), result.g.series[0].y.end()) -
-                    result.g.series[0].y.begin();
-  fmt::print(
-      "{}g(r) ({}, {} frame{} from {:.4g} s, {:.0f} reference grains): highest {:.3g} +- {:.2g} at {:.3g} d",
-      source.prefix, options.estimator, result.g.frames, result.g.frames == 1 ? "" : "s", first->time,
-      n.at("references"), result.g.series[0].y[peak], result.g.series[0].error[peak],
-      result.g.series[0].x[peak]);
-  if (n.contains("first_minimum"))
-    fmt::print("; first minimum at {:.3g} d, {:.3g} neighbours within\n", n.at("first_minimum"),
-               n.at("coordination_first_shell"));
-  else
-    fmt::print("; no first minimum\n");
-}
-
 void analyzePacking(const Source& source, const AnalyzeOptions& options, ResultFiles& files) {
   if (!source.facts.up)
     throw InputError(fmt::format("{}: without gravity there is no height, so no packing fraction by height",
@@ -84,7 +37,7 @@ void analyzePacking(const Source& source, const AnalyzeOptions& options, ResultF
   PackingOptions o;
   o.up = *source.facts.up;
   o.diameter = diameterFor(options, *first);
-  o.region = regionFor(source, options, o.diameter);
+  o.region = limitsFor(source, options, o.diameter);
   PackingProfile profile(o);
   for (std::size_t f = from; f <= to; ++f)
     profile.add(*source.frames->load(f));
@@ -205,7 +158,12 @@ void analyzeBeverloo(const std::vector<Source>& sources, const AnalyzeOptions& o
 }
 
 int analyze(AnalyzeOptions options) {
-  const bool chosen = options.gr || options.packing || options.discharge || options.energies ||
+  if (options.list) {
+    printAnalysisKinds();
+    return 0;
+  }
+  if (options.folder.empty()) throw InputError("name a folder for the results: -o DIR");
+  const bool chosen = !options.kinds.empty() || options.packing || options.discharge || options.energies ||
                       options.beverloo || options.contacts || options.residence || options.heap ||
                       !options.impactMap.empty();
   if (!chosen) options.all = true;
@@ -214,7 +172,7 @@ int analyze(AnalyzeOptions options) {
   std::vector<Source> sources;
   std::map<std::string, int> used;
   for (const auto& text : options.sources) {
-    sources.push_back(openSource(text, options.sources.size() > 1));
+    sources.push_back(openSource(text, options.sources.size() > 1, options));
     // Two runs called "run" in different folders must not overwrite each other's files.
     std::string& prefix = sources.back().prefix;
     if (const int before = used[prefix]++; before > 0) prefix = fmt::format("{}{}_", prefix, before + 1);
@@ -241,7 +199,9 @@ int analyze(AnalyzeOptions options) {
     attempt(options.residence, "residence times", source.prefix,
             [&] { analyzeResidence(source, options, files); });
     attempt(options.heap, "heap angle", source.prefix, [&] { analyzeHeap(source, options, files); });
-    attempt(options.gr, "g(r)", source.prefix, [&] { analyzeGr(source, options, files); });
+    for (const auto& kind : analysisKinds())
+      attempt(std::find(options.kinds.begin(), options.kinds.end(), kind.name) != options.kinds.end(),
+              kind.title.c_str(), source.prefix, [&] { analyzeKind(kind, source, options, files); });
   }
   if (options.beverloo || sources.size() > 1)
     attempt(options.beverloo, "Beverloo's fit", "", [&] { analyzeBeverloo(sources, options, files); });
@@ -257,8 +217,17 @@ void addAnalyze(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("analyze", "Curves and numbers from runs or frame files: CSV, JSON, charts");
   command->add_option("source", o.sources, "run folders or .vtkhdf files")->type_name("RUN|FILE");
-  command->add_option("-o,--output", o.folder, "folder for the results")->required()->type_name("DIR");
-  command->add_flag("--gr", o.gr, "pair correlation g(r)");
+  command->add_option("-o,--output", o.folder, "folder for the results")->type_name("DIR");
+  for (const auto& kind : analysisKinds())
+    command->add_flag_callback(
+        optionOf(kind), [&o, &kind] { o.kinds.push_back(kind.name); }, kind.description);
+  command
+      ->add_option("--knob", o.knobs, "knob of an analysis, such as gr.bins=400; may be repeated; see --list")
+      ->type_name("NAME.KNOB=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--list", o.list, "the analyses with what they need and their knobs, and nothing else");
+  command->add_option("--up", o.up, "direction against gravity, where frames have no scene: 0,0,1")
+      ->type_name("X,Y,Z");
   command->add_flag("--packing", o.packing, "packing fraction by height");
   command->add_flag("--discharge", o.discharge, "mass discharged against time and its rate");
   command->add_flag("--energies", o.energies, "energies against time");
@@ -279,7 +248,10 @@ void addAnalyze(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->type_name("LENGTH");
   command->add_option("--bins", o.bins, "bins of g(r)")->capture_default_str()->check(CLI::Range(1, 1000000));
-  command->add_option("--estimator", o.estimator, "E0 (none), E1 (guard zone) or E3 (local shell volume)")
+  command
+      ->add_option("--estimator", o.estimator,
+                   "E0 (none), E1 (guard zone), E2 (translation), E3 (local shell volume) or E4 "
+                   "(inhomogeneous)")
       ->capture_default_str();
   command
       ->add_option("--frames", o.frames,

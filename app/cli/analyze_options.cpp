@@ -48,6 +48,22 @@ void addLimits(const std::vector<std::string>& limits, analysis::RegionOptions& 
   }
 }
 
+Vec3 directionOption(const std::string& option, const std::string& text) {
+  Vec3 direction = Vec3::Zero();
+  std::size_t from = 0;
+  bool good = true;
+  for (int k = 0; k < 3 && good; ++k) {
+    const std::size_t comma = k < 2 ? text.find(',', from) : text.size();
+    good =
+        comma != std::string::npos && parse(std::string_view(text).substr(from, comma - from), direction[k]);
+    from = comma + 1;
+  }
+  if (!good || !(direction.norm() > 0) || !direction.allFinite())
+    throw InputError(fmt::format("{} is '{}', but must be three numbers with commas between, such as 0,0,1",
+                                 option, text));
+  return direction.normalized();
+}
+
 std::pair<std::size_t, std::size_t> frameRange(const std::string& text, std::size_t count,
                                                const std::string& source) {
   const auto colon = text.find(':');

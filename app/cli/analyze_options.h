@@ -14,7 +14,7 @@ namespace sandglass::cli {
 struct AnalyzeOptions {
   std::vector<std::string> sources;
   std::string folder;
-  bool gr = false, packing = false, discharge = false, energies = false, beverloo = false, all = false;
+  bool packing = false, discharge = false, energies = false, beverloo = false, all = false;
   bool contacts = false, residence = false, heap = false;
   std::string impactMap;  ///< a scene
   double impactSpeed = 0; ///< [m/s]; 0: slow
@@ -22,6 +22,10 @@ struct AnalyzeOptions {
   std::string rMax = "5d", estimator = "E3", frames, diameter, margin, shares, depth, probe, flowingDensity;
   std::vector<std::string> limits;
   int bins = 200;
+  std::vector<std::string> kinds; ///< names of analyses asked for
+  std::vector<std::string> knobs; ///< "gr.bins=400"
+  std::string up;                 ///< "0,0,1"
+  bool list = false;
 };
 
 /// "5d" in grain diameters, "12 mm" or "0.012" in metres. Throws InputError naming the option.
@@ -29,6 +33,9 @@ double lengthOption(const std::string& option, const std::string& text, double d
 
 /// "y>1cm", "x<0": limits laid into the region. Throws InputError.
 void addLimits(const std::vector<std::string>& limits, analysis::RegionOptions& region);
+
+/// "0,0,1": a unit vector. Throws InputError naming the option.
+Vec3 directionOption(const std::string& option, const std::string& text);
 
 /// "A:B", "A:", ":B", "A", ":": first and last index, both used. Throws InputError when none is left.
 std::pair<std::size_t, std::size_t> frameRange(const std::string& text, std::size_t count,

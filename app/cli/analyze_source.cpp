@@ -30,13 +30,14 @@ bool gatesClosed(const Frame& frame) {
 
 } // namespace
 
-Source openSource(const std::string& text, bool several) {
+Source openSource(const std::string& text, bool several, const AnalyzeOptions& options) {
   Source source;
   source.path = text;
   source.frames = openFrames(text);
   if (source.frames->size() == 0) throw InputError(fmt::format("{}: there are no frames yet", text));
   if (const std::string scene = sceneTextOf(source.path); !scene.empty())
     source.facts = factsOf(parseScene(scene, text + " (scene inside)"));
+  if (!options.up.empty()) source.facts.up = directionOption("--up", options.up);
   fs::path name = source.path;
   if (!name.has_filename()) name = name.parent_path(); // "run/"
   if (several) source.prefix = name.stem().string() + "_";
@@ -59,10 +60,13 @@ std::pair<std::size_t, std::size_t> framesFor(const Source& source, const Analyz
   return {settled, settled};
 }
 
-void stamp(Curve& curve, const Source& source, const Frame& frame) {
-  for (const auto& [key, value] : frame.provenance)
-    curve.provenance[key] = value;
-  curve.provenance["source"] = source.path.string();
+RegionOptions limitsFor(const Source& source, const AnalyzeOptions& options, double diameter) {
+  RegionOptions region;
+  region.up = source.facts.up;
+  region.gates = source.facts.gates;
+  if (!options.margin.empty()) region.surfaceMargin = lengthOption("--margin", options.margin, diameter);
+  addLimits(options.limits, region);
+  return region;
 }
 
 double diameterFor(const AnalyzeOptions& options, const Frame& frame) {

@@ -18,11 +18,11 @@ struct Source {
   std::filesystem::path path;
   std::string prefix; ///< of its result files
   std::unique_ptr<FrameSource> frames;
-  analysis::RunFacts facts;
+  analysis::RunFacts facts; ///< `up` comes from --up where there is no scene
 };
 
 /// Throws InputError when there are no frames. `several`: results get the name of the source as prefix.
-Source openSource(const std::string& text, bool several);
+Source openSource(const std::string& text, bool several, const AnalyzeOptions& options = {});
 
 /// The last frame with all gates closed (the settled bed), or the last of all.
 std::size_t settledFrame(const Source& source);
@@ -33,7 +33,14 @@ std::pair<std::size_t, std::size_t> framesFor(const Source& source, const Analyz
 /// Grain diameter: --diameter, else the mean of the frame.
 double diameterFor(const AnalyzeOptions& options, const Frame& frame);
 
+/// The user's limits, the surface's margin, up and the gates, for a region.
+analysis::RegionOptions limitsFor(const Source& source, const AnalyzeOptions& options, double diameter);
+
 /// Provenance of the frame and the name of the source.
-void stamp(analysis::Curve& curve, const Source& source, const Frame& frame);
+template <class Result> void stamp(Result& result, const Source& source, const Frame& frame) {
+  for (const auto& [key, value] : frame.provenance)
+    result.provenance[key] = value;
+  result.provenance["source"] = source.path.string();
+}
 
 } // namespace sandglass::cli

@@ -64,4 +64,8 @@ void ResultFiles::write(const analysis::Table& table, const std::string& prefix)
   if (!csvOnly_) writeText(stem + ".json", analysis::toJson(table));
 }
 
+void ResultFiles::write(const analysis::Field& field, const std::string& prefix) {
+  writeText((folder_ / (prefix + field.name)).string() + ".vti", analysis::toVti(field));
+}
+
 } // namespace sandglass::cli

@@ -1,7 +1,7 @@
 #pragma once
 // Results to files: CSV, JSON and, where the program can draw, a PNG chart.
 
-#include "analysis/result.h"
+#include "analysis/results.h"
 
 #include <filesystem>
 #include <memory>
@@ -17,6 +17,7 @@ public:
   /// Writes `prefix` + the curve's name + endings.
   void write(const analysis::Curve& curve, const std::string& prefix = "");
   void write(const analysis::Table& table, const std::string& prefix = "");
+  void write(const analysis::Field& field, const std::string& prefix = ""); ///< VTK image data (.vti)
 
 private:
   struct Painter;

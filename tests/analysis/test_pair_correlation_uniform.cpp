@@ -17,9 +17,9 @@ struct Verdict {
   double probability = 0; ///< of a chi-squared this large or larger
 };
 
-/// 50 independent replicates give each bin its mean and the standard error of it. Each deviation is a Student
-/// variable of 49 degrees of freedom; its square is scaled by 47/49 to have mean 1 before the sum is compared
-/// with chi-squared.
+/// n independent replicates give each bin its mean and the standard error of it. Each deviation is a Student
+/// variable of n - 1 degrees of freedom; its square is scaled by (n - 3) / (n - 1) to have mean 1 before the
+/// sum is compared with chi-squared.
 Verdict judge(const std::vector<std::vector<double>>& replicates) {
   const std::size_t bins = replicates.front().size();
   Verdict verdict;
@@ -30,16 +30,18 @@ Verdict judge(const std::vector<std::vector<double>>& replicates) {
       values.push_back(g[b]);
     const double z = (mean(values) - 1) / std::sqrt(variance(values) / static_cast<double>(values.size()));
     verdict.worst = std::max(verdict.worst, std::abs(z));
-    chiSquared += z * z * 47 / 49;
+    chiSquared +=
+        z * z * (static_cast<double>(replicates.size()) - 3) / (static_cast<double>(replicates.size()) - 1);
   }
   verdict.probability = chiSquaredProbability(chiSquared, static_cast<double>(bins));
   return verdict;
 }
 
 Verdict uniformVerdict(const Vec3& size, std::array<bool, 3> periodic, double radius,
-                       const std::vector<FrameWall>& walls, double rMax, Estimator estimator) {
+                       const std::vector<FrameWall>& walls, double rMax, Estimator estimator,
+                       std::uint64_t count = 50) {
   std::vector<std::vector<double>> replicates;
-  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
     const Frame frame = uniformFrame(1500, size, periodic, radius, walls, 100 + seed);
     PairCorrelationOptions options;
     options.estimator = estimator;
@@ -70,9 +72,12 @@ TEST_CASE("uniform points in walled containers give 1", "[gr][uniform]") {
                                      {"height", 1.2},
                                      {"ends", std::string("both")}})},
   }));
-  const Verdict verdict =
-      uniformVerdict(size, {false, false, false}, radius, {wall}, 0.5, Estimator::localShell);
-  INFO(name << ": worst bin " << verdict.worst << " sigma, chi-squared probability " << verdict.probability);
+  const Estimator estimator =
+      GENERATE(Estimator::localShell, Estimator::translation, Estimator::inhomogeneous);
+  const Verdict verdict = uniformVerdict(size, {false, false, false}, radius, {wall}, 0.5, estimator,
+                                         estimator == Estimator::localShell ? 50 : 10);
+  INFO(name << " " << nameOf(estimator) << ": worst bin " << verdict.worst
+            << " sigma, chi-squared probability " << verdict.probability);
   CHECK(verdict.worst < 4.5);
   CHECK(verdict.probability > 0.001);
   CHECK(verdict.probability < 0.999);
@@ -161,4 +166,71 @@ TEST_CASE("quoted errors are as large as the scatter", "[gr][uniform]") {
   INFO("mean squares " << square << " and " << mean40);
   CHECK(mean40 > 0.2);
   CHECK(mean40 < 2.2);
+}
+
+TEST_CASE("two species of uniform points, each in the space open to it, give 1", "[gr][uniform]") {
+  // Radii 0.03 and 0.08 in a closed box: the regions differ, and so must the volumes that normalise.
+  const Vec3 size(1, 1, 1.2);
+  const FrameWall box = boxWall(size);
+  const auto [a, b, estimator] = GENERATE(table<int, int, Estimator>(
+      {{0, 1, Estimator::localShell}, {1, 1, Estimator::localShell}, {0, 1, Estimator::translation}}));
+  std::vector<std::vector<double>> replicates;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Frame frame = uniformFrame(500, size, {false, false, false}, 0.03, {box}, 700 + seed);
+    const Frame large = uniformFrame(700, size, {false, false, false}, 0.08, {box}, 900 + seed);
+    frame.position.insert(frame.position.end(), large.position.begin(), large.position.end());
+    auto& radius = frame.scalars[quantity::radius];
+    radius.resize(1200, 0.08);
+    frame.scalars[quantity::species] = std::vector<double>(500, 0.0);
+    frame.scalars[quantity::species].resize(1200, 1.0);
+    frame.speciesNames = {"small", "large"};
+    PairCorrelationOptions options;
+    options.rMax = 0.5;
+    options.bins = 15;
+    options.directions = 16;
+    options.seed = 1 + seed;
+    options.species = std::pair{a, b};
+    options.estimator = estimator;
+    replicates.push_back(pairCorrelation(frame, options).g.series[0].y);
+  }
+  const Verdict verdict = judge(replicates);
+  INFO(nameOf(estimator) << " " << a << b << ": worst bin " << verdict.worst
+                         << " sigma, chi-squared probability " << verdict.probability);
+  CHECK(verdict.worst < 4.5);
+  CHECK(verdict.probability > 0.001);
+  CHECK(verdict.probability < 0.999);
+}
+
+TEST_CASE("points thinning out upwards: E4 gives 1, E3 does not", "[gr][uniform]") {
+  // Density falling linearly to a fifth over the height of the box, by rejection.
+  const Vec3 size(1, 1, 1.2);
+  std::vector<std::vector<double>> e3, e4;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RandomStream random(1100 + seed, RandomPurpose::test, 3);
+    std::vector<Vec3> points;
+    while (points.size() < 3000) {
+      const Vec3 x(random.uniform(0.05, 0.95), random.uniform(0.05, 0.95), random.uniform(0.05, 1.15));
+      if (random.uniform() < 1 - 0.8 * (x.z() - 0.05) / 1.1) points.push_back(x);
+    }
+    Frame frame = frameOf(std::move(points), size, {false, false, false}, 0.05);
+    frame.walls = {boxWall(size)};
+    PairCorrelationOptions options;
+    options.rMax = 0.5;
+    options.bins = 10;
+    options.directions = 16;
+    options.seed = 1 + seed;
+    e3.push_back(pairCorrelation(frame, options).g.series[0].y);
+    options.estimator = Estimator::inhomogeneous;
+    e4.push_back(pairCorrelation(frame, options).g.series[0].y);
+  }
+  // The mean of rho^2 over that of rho, squared: 1.145 at small distance.
+  CHECK(judge(e3).worst > 30);
+  // rho from balls of two diameters is a little smoothed beside the walls: within 1 % everywhere.
+  for (std::size_t b = 0; b < 10; ++b) {
+    double sum = 0;
+    for (const auto& g : e4)
+      sum += g[b] / 20;
+    INFO("bin " << b);
+    CHECK(sum == Approx(1).margin(0.01));
+  }
 }

@@ -1,0 +1,10 @@
+#pragma once
+// One function per analysis, each in its own file; registry.cpp lists them.
+
+#include "analysis/registry.h"
+
+namespace sandglass::analysis {
+
+AnalysisKind pairCorrelationKind();
+
+} // namespace sandglass::analysis
