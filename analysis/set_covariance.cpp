@@ -22,12 +22,17 @@ SetCovariance::SetCovariance(const Region& region, double reach, std::uint64_t s
     if (static_cast<int>(inside.size()) == points) break;
   }
   points_ = std::max<int>(1, static_cast<int>(inside.size()));
-  tbb::parallel_for(0, side * side * side, [&](int node) {
+  // gamma(h) = gamma(-h): half of the nodes do; those out of reach of any cell that is asked for, none.
+  constexpr int nodes = side * side * side;
+  const double farthest = reach + 2 * spacing_ * std::sqrt(3.0);
+  tbb::parallel_for(0, nodes / 2 + 1, [&](int node) {
     const Vec3 h = spacing_ * Vec3(node % side - half, node / side % side - half, node / side / side - half);
+    if (h.norm() > farthest) return;
     int hits = 0;
     for (const auto& x : inside)
       hits += region.contains(x + h);
-    share_[static_cast<std::size_t>(node)] = static_cast<double>(hits) / points_;
+    const double share = static_cast<double>(hits) / points_;
+    share_[static_cast<std::size_t>(node)] = share_[static_cast<std::size_t>(nodes - 1 - node)] = share;
   });
 }
 
