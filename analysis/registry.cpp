@@ -11,6 +11,7 @@ namespace sandglass::analysis {
 const std::vector<AnalysisKind>& analysisKinds() {
   static const std::vector<AnalysisKind> kinds{
       pairCorrelationKind(),
+      bondAngleKind(),
   };
   return kinds;
 }

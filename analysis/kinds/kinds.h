@@ -6,5 +6,6 @@
 namespace sandglass::analysis {
 
 AnalysisKind pairCorrelationKind();
+AnalysisKind bondAngleKind();
 
 } // namespace sandglass::analysis
