@@ -45,6 +45,8 @@ void printParts(const Scene& scene) {
   fmt::print("\nScene {} (seed {})\n", sceneHash(scene), scene.seed);
   fmt::print("  domain     {:.4g} x {:.4g} x {:.4g} m, periodic along {}\n", size.x(), size.y(), size.z(),
              periodic.empty() ? "no axis" : periodic);
+  if (scene.wedge)
+    fmt::print("  wedge      one of {} equal sectors about {}\n", scene.wedge->sectors(), scene.wedge->axis);
   for (const auto& s : scene.species) {
     const SizeRange range = sizeRange(scene, s);
     fmt::print("  species    {}: {} of {}, {:.4g} to {:.4g} mm, mean mass {:.4g} mg\n", s.name, s.size.kind,

@@ -43,6 +43,9 @@ public:
 
   /// Doubles of history per pair. All zero when the pair is born.
   virtual int historySize() const { return 0; }
+  /// Where in its history vectors begin, three numbers each: what turns with the grains where a wedge is
+  /// simulated.
+  virtual std::vector<int> historyVectors() const { return {}; }
   /// Largest gap at which the law can act [m]; 0 for laws that act in contact alone. Sizes lists.
   virtual double range() const { return 0.0; }
   /// Optional columns of the block that it reads, LawColumns.

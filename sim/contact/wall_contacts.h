@@ -43,6 +43,13 @@ public:
   template <class Visit>
   void visitContacts(const GrainStore& grains, const std::vector<SolverWall>& walls, Visit&& visit) const;
 
+  /// Calls change(grain, history) for the history of each contact there is, between step() and build().
+  template <class Change> void changeHistories(Change&& change) {
+    const std::size_t size = static_cast<std::size_t>(laws_.historySize());
+    for (std::size_t k = 0; size > 0 && k < feature_.size(); ++k)
+      if (feature_[k] >= 0) change(candidates_[k / slots].grain, history_.data() + k * size);
+  }
+
   /// For checkpoints: what cannot be made again from positions.
   std::vector<double>& historyArray() { return history_; }
   std::vector<std::int32_t>& featureArray() { return feature_; }

@@ -22,7 +22,7 @@ bool removedBy(const Scene& scene, const std::string& stage, const std::string& 
 } // namespace
 
 OpenSpace::OpenSpace(const Scene& scene, const std::string& stage)
-    : domain_(scene.domain), outlets_(scene.outlets) {
+    : domain_(scene.domain), sector_(scene.sector()), outlets_(scene.outlets) {
   for (const auto& wall : scene.walls) {
     if (removedBy(scene, stage, wall.name)) continue;
     for (const auto& kind : wallKinds())
@@ -39,6 +39,9 @@ std::string OpenSpace::obstacle(const Vec3& centre, double radius, double mayOve
     if (!domain_.periodic[static_cast<std::size_t>(k)] &&
         (centre[k] < domain_.lower[k] || centre[k] > domain_.upper[k]))
       return "the domain";
+  if (sector_.numberOf(centre) != 0) return "the faces of the wedge";
+  if (sector_.radius(centre) < radius * (1 - mayOverlap) * sector_.coreRadius())
+    return "its own image at the axis of the wedge";
   for (const auto& outlet : outlets_)
     if ((centre - outlet.point).dot(outlet.normal) > 0) return "the outlet '" + outlet.name + "'";
   const double needed = radius * (1 - mayOverlap);

@@ -1,7 +1,8 @@
 #pragma once
-// Where a stage lets grains be: inside the domain, on the right side of every wall that stands, short of
+// Where a stage lets grains be: inside the domain and the wedge, on the right side of every wall that stands, short of
 // outlets.
 
+#include "sim/math/sector.h"
 #include "sim/scene/scene.h"
 #include "sim/walls/wall_shape.h"
 
@@ -19,7 +20,7 @@ public:
   /// Whether a sphere there touches no wall and has not left. A part of `mayOverlap` of its radius may stick
   /// into a wall.
   bool admits(const Vec3& centre, double radius, double mayOverlap = 0) const;
-  /// Name of the wall (or "the outlet NAME", "the domain") that forbids it, "" when it is admitted.
+  /// Name of the wall (or "the outlet NAME", "the domain", …) that forbids it, "" when it is admitted.
   std::string obstacle(const Vec3& centre, double radius, double mayOverlap = 0) const;
 
   /// The same point inside the domain along periodic axes.
@@ -32,6 +33,7 @@ private:
     std::shared_ptr<const WallShape> shape;
   };
   Domain domain_;
+  Sector sector_;
   std::vector<Wall> walls_;
   std::vector<OutletSpec> outlets_;
 };

@@ -6,8 +6,9 @@
 
 namespace sandglass {
 
-PlacementGrid::PlacementGrid(const Domain& domain, double largestDiameter)
-    : domain_(domain), length_(domain.upper - domain.lower) {
+PlacementGrid::PlacementGrid(const Domain& domain, double largestDiameter, const Sector& sector)
+    : domain_(domain), sector_(sector), largestDiameter_(largestDiameter),
+      length_(domain.upper - domain.lower) {
   constexpr double mostCells = 1e7; // 40 MB; larger cells in larger domains only cost time
   const auto cellsAcross = [&](double width) -> Vec3 { return (length_ / width).array().floor().max(1.0); };
   double width = largestDiameter;
@@ -45,6 +46,15 @@ void PlacementGrid::add(const Vec3& centre, double radius) {
 }
 
 double PlacementGrid::overlap(const Vec3& centre, double radius) const {
+  double deepest = overlapHere(centre, radius);
+  // Twice that far: spheres that were there before may stand beyond a face.
+  sector_.eachImage(centre, 2.0 * largestDiameter_, [&](int turn) {
+    deepest = std::max(deepest, overlapHere(sector_.turned(centre, turn), radius));
+  });
+  return deepest;
+}
+
+double PlacementGrid::overlapHere(const Vec3& centre, double radius) const {
   const auto cell = cellOf(centre);
   double deepest = -std::numeric_limits<double>::infinity();
   // Neighbours are counted without wrapping and each carries its own shift: with one or two cells across a

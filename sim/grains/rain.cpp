@@ -19,7 +19,8 @@ class RainFill {
 public:
   RainFill(const Scene& scene, const FillSpec& fill)
       : scene_(scene), parameters_(fill.how.parameters), mixture_(scene_, fill),
-        region_(parameters_, scene_.domain), open_(scene_, fill.stage), endless_(!parameters_.has("number")),
+        region_(parameters_, scene_.domain), open_(scene_, fill.stage), sector_(scene_.sector()),
+        endless_(!parameters_.has("number")),
         total_(endless_ ? std::numeric_limits<std::int64_t>::max() : parameters_.integer("number")) {
     rate_ = parameters_.has("rate") ? parameters_.number("rate")
                                     : parameters_.number("mass_rate") / mixture_.meanMass();
@@ -83,6 +84,8 @@ private:
 
   /// Nearest images suffice for spheres: no period is shorter than a diameter.
   bool touches(const GrainSeed& a, const GrainSeed& b) const {
+    for (int turn = 1; turn < sector_.count(); ++turn)
+      if ((a.position - sector_.turned(b.position, turn)).norm() < a.radius + b.radius) return true;
     Vec3 apart = a.position - b.position;
     for (int k = 0; k < 3; ++k) {
       const double length = scene_.domain.upper[k] - scene_.domain.lower[k];
@@ -97,6 +100,7 @@ private:
   Mixture mixture_;
   FillRegion region_;
   OpenSpace open_;
+  Sector sector_;
   bool endless_;
   std::int64_t total_;
   double rate_;

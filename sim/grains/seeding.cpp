@@ -46,7 +46,7 @@ std::vector<GrainSeed> place(const FillContext& context) {
 std::vector<GrainSeed> placeGrains(const Scene& scene, const std::string& stage, std::int64_t firstId,
                                    const std::vector<GrainSeed>& present, const Log& log) {
   const OpenSpace open(scene, stage);
-  PlacementGrid placed(scene.domain, largestDiameter(scene, present));
+  PlacementGrid placed(scene.domain, largestDiameter(scene, present), scene.sector());
   for (const auto& g : present)
     placed.add(open.wrapped(g.position), g.radius);
   std::vector<GrainSeed> all;
@@ -81,7 +81,7 @@ std::int64_t expectedGrains(const Scene& scene) {
       count += static_cast<std::int64_t>(p.texts("species").size());
     else {
       const OpenSpace open(scene, fill.stage);
-      PlacementGrid placed(scene.domain, largestDiameter(scene, {}));
+      PlacementGrid placed(scene.domain, largestDiameter(scene, {}), scene.sector());
       count += static_cast<std::int64_t>(fillLattice({scene, fill, open, placed, 0, "fill"}).size());
     }
   }

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/version.h"
+#include "sim/math/sector.h"
 #include "sim/run/run_recorder.h"
 #include "sim/run/stage_control.h"
 
@@ -168,6 +169,9 @@ void Run::change(EventSpec event) {
   if ((event.gravity && !event.gravity->allFinite()) || !std::isfinite(event.drag.value_or(0)) ||
       event.drag.value_or(0) < 0)
     throw InputError("gravity and drag are finite numbers, and drag is not negative");
+  if (const Sector sector = impl_->scene.sector();
+      event.gravity && !sector.whole() && sector.radius(*event.gravity) > 0.0)
+    throw InputError("with a wedge gravity must point along its axis " + impl_->scene.wedge->axis);
   const std::lock_guard lock(changesMutex_);
   changes_.push_back(std::move(event));
 }

@@ -85,7 +85,7 @@ void tryPlacing(const Scene& scene, std::size_t f, FaultList& faults) {
   else
     largest = Mixture(scene, fill).largest();
   const OpenSpace open(scene, fill.stage);
-  PlacementGrid placed(scene.domain, largest);
+  PlacementGrid placed(scene.domain, largest, scene.sector());
   const FillContext context{scene, fill, open, placed, 0, pathOf(f)};
   try {
     fill.how.kind == "list" ? fillFromList(context) : fillLattice(context);

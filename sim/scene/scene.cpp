@@ -1,6 +1,7 @@
 #include "sim/scene/scene.h"
 
 #include "sim/base/error.h"
+#include "sim/math/sector.h"
 #include "sim/scene/scene_checks.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/scene_writer.h"
@@ -10,8 +11,10 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 namespace sandglass {
@@ -25,6 +28,14 @@ template <class T> const T& named(const std::vector<T>& all, const std::string& 
 }
 
 } // namespace
+
+int WedgeSpec::sectors() const {
+  return static_cast<int>(std::lround(2.0 * std::numbers::pi / angle));
+}
+
+Sector Scene::sector() const {
+  return wedge ? Sector(wedge->sectors(), wedge->axis[0] - 'x') : Sector();
+}
 
 const Material& Scene::material(const std::string& name) const {
   return named(materials, name, "material");

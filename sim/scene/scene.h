@@ -13,6 +13,8 @@
 
 namespace sandglass {
 
+class Sector;
+
 inline bool operator==(const Domain& a, const Domain& b) {
   return a.lower == b.lower && a.upper == b.upper && a.periodic == b.periodic;
 }
@@ -22,6 +24,14 @@ struct Choice {
   std::string kind;
   Parameters parameters;
   bool operator==(const Choice&) const = default;
+};
+
+/// A sector of a scene that is its own image under turns by `angle` about an axis through the origin.
+struct WedgeSpec {
+  double angle = 0; ///< [rad], a whole number of times in a full circle
+  std::string axis = "z";
+  int sectors() const; ///< in a full circle
+  bool operator==(const WedgeSpec&) const = default;
 };
 
 struct Material {
@@ -152,6 +162,7 @@ struct Scene {
   std::string solver = "dem";
   Vec3 gravity = Vec3(0, 0, -9.81); ///< [m/s^2]
   Domain domain;
+  std::optional<WedgeSpec> wedge;
   std::vector<Material> materials;
   std::vector<ContactSpec> contacts;
   std::vector<Species> species;
@@ -164,6 +175,7 @@ struct Scene {
   OutputSpec output;
   AccuracySpec accuracy;
 
+  Sector sector() const; ///< of the wedge; the whole circle without
   const Material& material(const std::string& name) const;
   const Species& speciesNamed(const std::string& name) const;
   const ContactSpec& contact(const std::string& a, const std::string& b) const;

@@ -3,12 +3,14 @@
 #include "sim/scene/check_fills.h"
 #include "sim/scene/check_flow.h"
 #include "sim/scene/check_parts.h"
+#include "sim/scene/check_wedge.h"
 
 namespace sandglass {
 
 void checkScene(const Scene& scene, FaultList& faults) {
   checkNames(scene, faults);
   checkDomain(scene, faults);
+  checkWedge(scene, faults);
   checkMaterials(scene, faults);
   checkContacts(scene, faults);
   checkWallsAndOutlets(scene, faults);

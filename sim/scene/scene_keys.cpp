@@ -67,6 +67,24 @@ const Keys& domainKeys() {
   return keys;
 }
 
+const Keys& wedgeKeys() {
+  static const Keys keys{{.name = "angle",
+                          .type = number,
+                          .unit = "rad",
+                          .description = "between its faces; a full circle must be a whole number of it",
+                          .minimum = 0.01,
+                          .maximum = 3.2},
+                         {.name = "axis",
+                          .type = text,
+                          .unit = "1",
+                          .description =
+                              "through the origin; the wedge lies at azimuths from 0, the direction "
+                              "of the next axis, to its angle",
+                          .fallback = std::string("z"),
+                          .choices = {"x", "y", "z"}}};
+  return keys;
+}
+
 const Keys& materialKeys() {
   static const Keys keys{name,
                          positive("density", "kg/m^3", "of the solid; walls need none"),

@@ -37,6 +37,7 @@ public:
   Scene read() {
     readKeys(top_, sceneKeys(), scene_);
     readTable("domain", domainKeys(), scene_.domain, true);
+    if (top_.subtable("wedge")) readTable("wedge", wedgeKeys(), scene_.wedge.emplace(), false);
     for (const auto& [table, path] : top_.subtables("material"))
       readMaterial(*table, path);
     for (const auto& [table, path] : top_.subtables("contact"))

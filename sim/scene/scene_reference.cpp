@@ -100,6 +100,12 @@ std::string sceneReference() {
                      "Keys that are marked **due** must be given.\n\n";
   text += "## The top of the file\n\n" + table(sceneKeys());
   text += "## `[domain]`: the space\n\n" + table(domainKeys());
+  text +=
+      "## `[wedge]`: a sector instead of the whole circle\n\nFor scenes that look the same after a turn "
+      "by the angle about a vertical axis: only the grains of one sector are\nsimulated, those that cross "
+      "a face come back through the other one, and contacts reach across. Rates, masses and\nforces are "
+      "those of the sector. Walls must be their own images under the turn. docs/wedge.md says more.\n\n" +
+      table(wedgeKeys());
   text += "## `[[material]]`\n\n" + table(materialKeys());
   text += "## `[[contact]]`: how two materials touch\n\nOne for each two materials that can meet. Each law "
           "is a table: "

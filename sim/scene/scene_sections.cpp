@@ -63,6 +63,18 @@ Parameters store(const Domain& domain) {
   return values;
 }
 
+void load(const Parameters& values, WedgeSpec& wedge) {
+  get(values, "angle", wedge.angle);
+  get(values, "axis", wedge.axis);
+}
+
+Parameters store(const WedgeSpec& wedge) {
+  Parameters values;
+  values.set("angle", wedge.angle);
+  values.set("axis", wedge.axis);
+  return values;
+}
+
 void load(const Parameters& values, Material& material) {
   get(values, "name", material.name);
   get(values, "density", material.density);

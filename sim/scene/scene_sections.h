@@ -12,6 +12,7 @@ using Keys = std::vector<ParameterSpec>;
 
 const Keys& sceneKeys(); ///< the root: title, seed, gravity, ...
 const Keys& domainKeys();
+const Keys& wedgeKeys();
 const Keys& materialKeys();
 const Keys& contactKeys(); ///< beside the laws
 const Keys& speciesKeys(); ///< beside `size`
@@ -30,6 +31,7 @@ const Keys& accuracyKeys();
 // From checked values; keys that are absent leave the target as it is.
 void load(const Parameters& values, Scene& scene);
 void load(const Parameters& values, Domain& domain);
+void load(const Parameters& values, WedgeSpec& wedge);
 void load(const Parameters& values, Material& material);
 void load(const Parameters& values, ContactSpec& contact);
 void load(const Parameters& values, Species& species);
@@ -47,6 +49,7 @@ void load(const Parameters& values, AccuracySpec& accuracy);
 // To values, for writing.
 Parameters store(const Scene& scene);
 Parameters store(const Domain& domain);
+Parameters store(const WedgeSpec& wedge);
 Parameters store(const Material& material);
 Parameters store(const ContactSpec& contact);
 Parameters store(const Species& species);

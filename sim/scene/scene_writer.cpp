@@ -135,6 +135,7 @@ public:
     }
     emit("", lines(sceneKeys(), root));
     emit("[domain]", lines(domainKeys(), store(scene_.domain)));
+    if (scene_.wedge) emit("[wedge]", lines(wedgeKeys(), store(*scene_.wedge)));
     for (const auto& m : scene_.materials)
       emit("[[material]]", lines(materialKeys(), store(m)));
     for (const auto& c : scene_.contacts)

@@ -31,6 +31,7 @@ public:
   }
 
   int historySize() const override { return 3; }
+  std::vector<int> historyVectors() const override { return {0}; }
   bool readsSpin() const override { return true; }
   bool turnsGrains() const override { return true; }
 

@@ -46,6 +46,7 @@ public:
   }
 
   int historySize() const override { return 3; }
+  std::vector<int> historyVectors() const override { return {0}; }
   bool turnsGrains() const override { return true; }
   bool fullRadiusArm() const override { return fullArm_.value(); }
 

@@ -57,6 +57,7 @@ public:
   }
 
   int historySize() const override { return 5; } // T [N]; T* [N]; F_n [N], negative while T falls
+  std::vector<int> historyVectors() const override { return {0}; }
   bool turnsGrains() const override { return true; }
   bool fullRadiusArm() const override { return fullArm_.value(); }
   unsigned reads() const override { return 0; }

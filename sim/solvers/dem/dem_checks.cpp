@@ -38,12 +38,15 @@ void DemSolver::reportBadMotion() const {
 }
 
 void DemSolver::checkEscapes() const {
+  const Sector& sector = across_.sector();
   for (int k = 0; k < 3; ++k) {
     if (scene_.domain.periodic[k]) continue;
     const double low = scene_.domain.lower[k], high = scene_.domain.upper[k];
     for (std::size_t i = 0; i < grains_.size(); ++i) {
-      const double x = grains_.place[i].vec()[k];
+      double x = grains_.place[i].vec()[k];
       if (x >= low && x <= high) continue;
+      x = sector.turned(grains_.place[i].vec(), -sector.numberOf(grains_.place[i].vec()))[k];
+      if (x >= low && x <= high) continue; // beyond a face of the wedge
       throw RunError(fmt::format(
           "at {:.6g} s (step {}) grain {} left the domain: {} = {:.6g} m is outside {:.6g} ... {:.6g} m; "
           "close the walls, widen the domain or add an outlet",
@@ -60,8 +63,18 @@ bool DemSolver::isFree(const Vec3& position, double radius) const {
     if (touches.count > 0 || w.shape->signedDistance(w.pose.toBody(position)) < 0.0) return false;
   }
   const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
+  const Sector& sector = across_.sector();
+  if (sector.numberOf(position) != 0 || sector.radius(position) < radius * sector.coreRadius()) return false;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < grains_.size() && !sector.whole(); ++i)
+    largest = std::max(largest, grains_.place[i].w + grains_.listed[i].w); // it may be beyond a face
+  std::vector<Vec3> images;
+  sector.eachImage(position, radius + largest,
+                   [&](int turn) { images.push_back(sector.turned(position, turn)); });
   for (std::size_t i = 0; i < grains_.size(); ++i) {
     const Quad& q = grains_.place[i];
+    for (const Vec3& image : images)
+      if ((q.vec() - image).squaredNorm() < (q.w + radius) * (q.w + radius)) return false;
     Vec3 d = q.vec() - position;
     for (int k = 0; k < 3; ++k)
       if (scene_.domain.periodic[k]) d[k] -= extent[k] * std::round(d[k] / extent[k]);

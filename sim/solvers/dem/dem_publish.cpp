@@ -86,6 +86,18 @@ FramePtr DemSolver::frame() const {
     contact.point = wrapped(grains_.place[i].vec() - radius * (sum - b.overlap[c]) / sum * contact.normal);
     frame->contacts.push_back(contact);
   });
+  across_.visitContacts(grains_, dt_, [&](const SectorContacts::Contact& pair, const ContactBlock& b, int c) {
+    FrameContact contact;
+    contact.a = grains_.id[pair.a];
+    contact.b = grains_.id[pair.b];
+    contact.image = {pair.turn, 0, 0};
+    contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
+    contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
+    contact.overlap = b.overlap[c];
+    const double sum = b.radiusA[c] + b.radiusB[c];
+    contact.point = grains_.place[pair.a].vec() - b.radiusA[c] * (sum - b.overlap[c]) / sum * contact.normal;
+    frame->contacts.push_back(contact);
+  });
   std::sort(frame->contacts.begin(), frame->contacts.end(), [](const FrameContact& s, const FrameContact& t) {
     return std::tie(s.a, s.b, s.image) < std::tie(t.a, t.b, t.image);
   });
@@ -118,7 +130,9 @@ Energies DemSolver::energies() const {
     e.gravitational -= m * gravity_.dot(x);
     if (grains_.turning) e.rotational += 0.5 * grains_.inertia(i) * full.spin[i].squaredNorm();
   }
-  if (!stale_) e.elastic = pairForces_.storedEnergy(dt_) + wallContacts_.storedEnergy(grains_, walls_);
+  if (!stale_)
+    e.elastic = pairForces_.storedEnergy(dt_) + across_.storedEnergy(grains_, dt_) +
+                wallContacts_.storedEnergy(grains_, walls_);
   return e;
 }
 
@@ -213,6 +227,7 @@ Solver::State DemSolver::save() {
     put(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
   put(s, "pairs.history", list_.historyArray());
   put(s, "pairs.live", list_.liveArray());
+  if (across_.used()) put(s, "across.history", across_.historyArray());
   put(s, "groups.moved", loop_.moved());
   put(s, "walls.history", wallContacts_.historyArray());
   put(s, "walls.feature", wallContacts_.featureArray());
@@ -265,6 +280,7 @@ void DemSolver::load(const State& s) {
     grains_.place[i] = {l.x, l.y, l.z, grains_.place[i].w};
   }
   list_.build(grains_, laws_.range(), parallel_);
+  if (across_.used()) across_.build(grains_, laws_.range(), list_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
   grains_.setRecords(std::move(records));
   loop_.bind();
@@ -277,6 +293,7 @@ void DemSolver::load(const State& s) {
   };
   restore("pairs.history", list_.historyArray());
   restore("pairs.live", list_.liveArray());
+  if (across_.used()) restore("across.history", across_.historyArray());
   restore("groups.moved", loop_.moved());
   restore("walls.history", wallContacts_.historyArray());
   restore("walls.feature", wallContacts_.featureArray());

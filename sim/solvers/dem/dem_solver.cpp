@@ -43,8 +43,12 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
                      const std::vector<std::shared_ptr<const Law>>& added)
     : scene_(scene), laws_(stackWith(scene, added)), parallel_(options.threads),
       list_(scene.domain, laws_.historySize(), laws_.outputQuads(), laws_.hasEvents()), pairForces_(laws_),
-      wallContacts_(laws_), loop_(grains_, list_, pairForces_, wallContacts_, parallel_),
-      gravity_(scene.gravity), lives_(scene) {
+      wallContacts_(laws_), across_(laws_, scene.sector()),
+      loop_(grains_, list_, pairForces_, wallContacts_, across_, parallel_), gravity_(scene.gravity),
+      lives_(scene) {
+  if (across_.used() && laws_.hasEvents())
+    throw InputError("a wedge cannot be simulated with laws that move quantities from grain to grain across "
+                     "a gap; simulate the whole circle");
   const StepChoice choice = chooseStep(scene, laws_);
   if (choice.step > choice.stableLimit)
     throw InputError(fmt::format(
@@ -160,7 +164,9 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
                        for (std::int64_t i = first; i < last; ++i)
                          allow(i, i + 1);
                      });
+  if (across_.used()) across_.turnBack(grains_, list_, wallContacts_);
   list_.build(grains_, laws_.range(), parallel_, drop, allow);
+  if (across_.used()) across_.build(grains_, laws_.range(), list_);
   allowTravel(walls_, dt_, skin_, meanDiameter_, wallRadius_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
   loop_.bind();
@@ -190,12 +196,15 @@ void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) co
   // What is evaluated here is evaluated once more by the next step: histories stay as they are.
   const auto history = wallContacts_.historyArray();
   const auto feature = wallContacts_.featureArray();
+  const auto across = across_.historyArray();
   DeepestOverlap deepest;
   placeWalls(walls_, time(), dt_);
   wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
+  across_.step(grains_, dt_, parallel_, deepest);
   loop_.forces(dt_, force, torque);
   wallContacts_.historyArray() = history;
   wallContacts_.featureArray() = feature;
+  across_.historyArray() = across;
   auto tallied = walls_;
   wallContacts_.tally(grains_, tallied, step_ == 0 ? 0.0 : dt_);
   atFullStep_.tallies.clear();
@@ -271,6 +280,7 @@ void DemSolver::stepOnce() {
   std::vector<PairEvent> events;
   DeepestOverlap deepest;
   wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
+  across_.step(grains_, dt_, parallel_, deepest);
   wallContacts_.tally(grains_, walls_, step_ == 0 ? 0.0 : dt_); // the work since the step before
   const auto report = loop_.step(dt_, gravity_, 0.25 * smallestRadius_ / dt_, events, deepest);
   checkOverlap(deepest);

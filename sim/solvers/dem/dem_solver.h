@@ -8,6 +8,7 @@
 #include "sim/contact/law_stack.h"
 #include "sim/contact/pair_forces.h"
 #include "sim/contact/pair_list.h"
+#include "sim/contact/sector_contacts.h"
 #include "sim/contact/wall_contacts.h"
 #include "sim/grains/grain_lives.h"
 #include "sim/solvers/dem/particle_loop.h"
@@ -95,6 +96,7 @@ private:
   PairList list_;
   PairForces pairForces_;
   mutable WallContacts wallContacts_;
+  mutable SectorContacts across_; ///< the faces of a wedge
   mutable ParticleLoop loop_;
   mutable FullStep atFullStep_;
   mutable std::vector<SolverWall> walls_;

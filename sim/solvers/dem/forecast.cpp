@@ -34,6 +34,7 @@ Trial tryOut(const Scene& scene) {
   block.gravity = Vec3::Zero();
   block.output = {};
   block.accuracy.maximumOverlap = 1e9;
+  block.wedge.reset();
   block.domain = {Vec3::Zero(), Vec3::Constant(side * pitch), {true, true, true}};
   SolverOptions one;
   one.threads = 1;
@@ -83,6 +84,7 @@ Forecast forecast(const Scene& scene) {
   tell(laws.readsSpin(), "couples of rolling and torsion", "32 bytes a pair");
   tell(laws.range() > 0.0, "forces across a gap", fmt::format("lists reach {:.3g} m further", laws.range()));
   tell(periodic, "periodic directions", "12 bytes a grain, 1 byte a pair");
+  tell(scene.wedge.has_value(), "a wedge with images across its faces", "paid by the grains near a face");
   tell(!scene.walls.empty(), "walls", "paid by the grains that are near one");
   tell(fastestWall(scene) > 0.0, "moving walls", "grains near them are listed a little further out");
   tell(!scene.outlets.empty(), "outlets", "one look at each grain every 50 steps");

@@ -44,6 +44,7 @@ void ParticleLoop::sumGroup(std::int64_t g, std::int64_t last, GroupSums& sums) 
         to[4 * q + k] += q == 1 ? out[4 * q + k] : sign * out[4 * q + k];
   }
   walls_.addTo(sums, grains_, first, last);
+  across_.addTo(sums, grains_, first, last);
 }
 
 template <class Done>

@@ -9,6 +9,7 @@
 
 #include "sim/base/parallel.h"
 #include "sim/contact/pair_forces.h"
+#include "sim/contact/sector_contacts.h"
 #include "sim/contact/wall_contacts.h"
 
 #include <vector>
@@ -18,8 +19,8 @@ namespace sandglass {
 class ParticleLoop {
 public:
   ParticleLoop(GrainStore& grains, PairList& list, PairForces& pairs, const WallContacts& walls,
-               Parallel& parallel)
-      : grains_(grains), list_(list), pairs_(pairs), walls_(walls), parallel_(parallel) {}
+               const SectorContacts& across, Parallel& parallel)
+      : grains_(grains), list_(list), pairs_(pairs), walls_(walls), across_(across), parallel_(parallel) {}
 
   /// After a rebuild: grains of a group may move as far as `listed.w` of its first says.
   void bind();
@@ -28,7 +29,7 @@ public:
     bool late = false; ///< some group has moved as far as its list allows
     bool bad = false;  ///< a velocity component reached the limit or is not a number
   };
-  /// One step, with the wall forces that are in `walls`.
+  /// One step, with the forces that are in `walls` and `across`.
   Report step(double dt, const Vec3& gravity, double speedLimit, std::vector<PairEvent>& events,
               DeepestOverlap& deepest);
 
@@ -49,6 +50,7 @@ private:
   PairList& list_;
   PairForces& pairs_;
   const WallContacts& walls_;
+  const SectorContacts& across_;
   Parallel& parallel_;
   std::vector<double> moved_, allowed_;
   std::vector<PairEvent> events_;
