@@ -7,5 +7,6 @@ namespace sandglass::analysis {
 
 AnalysisKind pairCorrelationKind();
 AnalysisKind bondAngleKind();
+AnalysisKind voronoiKind();
 
 } // namespace sandglass::analysis
