@@ -1,6 +1,5 @@
 #include "vis/grain_layer.h"
 
-#include <vtkCellArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkOpenGLSphereMapper.h>
 #include <vtkPointData.h>
@@ -8,9 +7,30 @@
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace sandglass::vis {
+
+void setGrainSurface(vtkProperty* surface) {
+  // The brightest spot has just the colour of the map: ambient + diffuse * |0.90 key + 0.38 fill| + specular
+  // = 1.
+  surface->SetAmbient(0.30);
+  surface->SetDiffuse(0.63);
+  surface->SetSpecular(0.04);
+  surface->SetSpecularPower(25);
+}
+
+vtkSmartPointer<vtkCellArray> vertexCells(vtkIdType count) {
+  vtkNew<vtkIdTypeArray> offsets, connectivity;
+  offsets->SetNumberOfValues(count + 1);
+  connectivity->SetNumberOfValues(count);
+  std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + count + 1, vtkIdType{0});
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{0});
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
 
 GrainLayer::GrainLayer() {
   coordinates_->SetNumberOfComponents(3);
@@ -42,12 +62,7 @@ GrainLayer::GrainLayer() {
       "    base2 *= wider;\n"
       "    }\n",
       false);
-  // The brightest spot has just the colour of the map: ambient + diffuse * |0.90 key + 0.38 fill| + specular
-  // = 1.
-  actor_->GetProperty()->SetAmbient(0.30);
-  actor_->GetProperty()->SetDiffuse(0.63);
-  actor_->GetProperty()->SetSpecular(0.04);
-  actor_->GetProperty()->SetSpecularPower(25);
+  setGrainSurface(actor_->GetProperty());
 }
 
 void GrainLayer::show(const VisibleGrains& grains, const std::vector<std::size_t>& subset,
@@ -63,18 +78,13 @@ void GrainLayer::show(const VisibleGrains& grains, const std::vector<std::size_t
       coordinates_->SetTypedComponent(k, axis, static_cast<float>(grains.position[i][axis]));
       colours_->SetTypedComponent(k, axis, colours[static_cast<std::size_t>(k)][axis]);
     }
-    radii_->SetValue(k, static_cast<float>(grains.radius[i]));
+    const double radius =
+        grains.isSphere(i)
+            ? grains.radius[i]
+            : std::cbrt(grains.shapes[static_cast<std::size_t>(grains.shape[i])].semiAxes.prod());
+    radii_->SetValue(k, static_cast<float>(radius));
   }
-  if (!sameCount) {
-    vtkNew<vtkIdTypeArray> offsets, connectivity; // one vertex cell for each grain
-    offsets->SetNumberOfValues(n + 1);
-    connectivity->SetNumberOfValues(n);
-    std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + n + 1, vtkIdType{0});
-    std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + n, vtkIdType{0});
-    vtkNew<vtkCellArray> cells;
-    cells->SetData(offsets, connectivity);
-    points_->SetVerts(cells);
-  }
+  if (!sameCount) points_->SetVerts(vertexCells(n));
   coordinates_->Modified();
   radii_->Modified();
   colours_->Modified();

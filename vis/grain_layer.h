@@ -6,20 +6,30 @@
 #include "vis/visible_grains.h"
 
 #include <vtkActor.h>
+#include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
+class vtkProperty;
+
 namespace sandglass::vis {
+
+/// How grains of any shape reflect the light.
+void setGrainSurface(vtkProperty* surface);
+
+/// One vertex cell for each of `count` points: VTK's impostors draw nothing without.
+vtkSmartPointer<vtkCellArray> vertexCells(vtkIdType count);
 
 class GrainLayer {
 public:
   GrainLayer();
   vtkActor* actor() const { return actor_; }
 
-  /// Shows `subset` of `grains` in `colours` (one for each of the subset).
+  /// Shows `subset` of `grains` in `colours` (one for each of the subset). A grain that is no sphere is shown
+  /// as one of about its volume.
   void show(const VisibleGrains& grains, const std::vector<std::size_t>& subset,
             const std::vector<Rgb>& colours);
 

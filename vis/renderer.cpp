@@ -12,8 +12,10 @@
 #include "vis/overlay.h"
 #include "vis/pick.h"
 #include "vis/read_back.h"
+#include "vis/superellipsoid_layer.h"
 #include "vis/text_style.h"
 #include "vis/ticks.h"
+#include "vis/unhidden.h"
 #include "vis/visible_grains.h"
 #include "vis/wall_layer.h"
 
@@ -91,8 +93,9 @@ struct Renderer::Impl {
     addLights(scene);
     scene->AutomaticLightCreationOff();
     scene->AddActor(grains.actor());
-    for (vtkActor* actor : walls.actors())
-      scene->AddActor(actor);
+    for (const auto& actors : {shapes.actors(), walls.actors()})
+      for (vtkActor* actor : actors)
+        scene->AddActor(actor);
     overlayActor->GetScene()->AddItem(overlay);
     overlayActor->GetScene()->SetRenderer(scene);
     scene->AddActor(overlayActor);
@@ -135,6 +138,35 @@ struct Renderer::Impl {
     c->SetClippingRange(camera.orthographic ? near : std::max(near, 1e-3 * far), far);
   }
 
+  /// Spheres in the frame's order, then others from front to back; at most view.maximumGrains.
+  std::vector<std::size_t> grainsToDraw(const View& view, const PictureGeometry& picture) const {
+    std::vector<std::size_t> seen = unhidden(visible, picture, detail.skipHidden && !view.meshes);
+    const auto others =
+        std::stable_partition(seen.begin(), seen.end(), [&](std::size_t k) { return visible.isSphere(k); });
+    std::sort(seen.begin(), others);
+    std::vector<std::size_t> result;
+    for (const std::size_t k : evenSubset(seen.size(), view.maximumGrains))
+      result.push_back(seen[k]);
+    return result;
+  }
+
+  void showGrains(const std::vector<std::size_t>& subset, const std::vector<Rgb>& colours, bool meshes,
+                  const PictureGeometry& picture) {
+    std::vector<std::size_t> spheres, others;
+    std::vector<Rgb> sphereColours, otherColours;
+    for (std::size_t k = 0; k < subset.size(); ++k) {
+      const std::size_t i = subset[k];
+      const bool asSphere =
+          visible.isSphere(i) ||
+          (!meshes && pixelsAcross(visible.position[i], visible.radius[i], picture) < detail.smallestShape);
+      (asSphere ? spheres : others).push_back(i);
+      (asSphere ? sphereColours : otherColours).push_back(colours[k]);
+    }
+    grains.show(visible, spheres, sphereColours);
+    shapes.show(visible, others, otherColours, meshes);
+    drawn = subset.size();
+  }
+
   /// After a picture: the thread's context is free again, and what VTK complained about is an error.
   void release() {
     window->context().release();
@@ -155,12 +187,15 @@ struct Renderer::Impl {
   vtkSmartPointer<ExternalWindow> window;
   vtkNew<vtkRenderer> scene;
   GrainLayer grains;
+  SuperellipsoidLayer shapes;
   WallLayer walls;
   ChartLayer charts;
   vtkNew<Overlay> overlay;
   vtkNew<vtkContextActor> overlayActor;
   VisibleGrains visible;
   std::shared_ptr<const History> history;
+  Detail detail;
+  std::size_t drawn = 0;
   Camera camera;
   int width = 0, height = 0;
   std::string glStrings;
@@ -183,8 +218,6 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   d.width = view.width;
   d.height = view.height;
   d.visible = visibleGrains(frame, view, d.history.get());
-  const auto subset = evenSubset(d.visible.index.size(), view.maximumGrains);
-  const GrainColours colours = grainColours(frame, view, d.visible, subset, d.history.get());
   const Eigen::AlignedBox3d box = domainBox(frame);
 
   OverlayContent& over = d.overlay->content;
@@ -199,19 +232,22 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   const auto sceneTitle = frame.provenance.find("title");
   over.title = view.title.empty() && sceneTitle != frame.provenance.end() ? sceneTitle->second : view.title;
   over.time = view.timeStamp ? timeText(frame.time) : "";
-  over.legends.clear();
-  if (view.legend && view.grains && colours.legend) over.legends.push_back(*colours.legend);
   GrainExtent extent;
   if (!view.camera.preset.empty()) extent.add(frame);
   d.camera = fitCamera(frame, view, extent);
   over.axes = view.axes ? std::optional(axesOf(d.camera)) : std::nullopt;
   over.metresPerPixel = view.scaleBar ? heightAtTarget(d.camera) / over.height : 0;
 
+  const std::vector<std::size_t> subset = d.grainsToDraw(view, {d.camera, over.width, over.height});
+  const GrainColours colours = grainColours(frame, view, d.visible, subset, d.history.get());
+  over.legends.clear();
+  if (view.legend && view.grains && colours.legend) over.legends.push_back(*colours.legend);
+
   const std::lock_guard lock(vtkTurn());
   d.window->MakeCurrent();
   d.window->SetSize(over.width, over.height);
   d.scene->SetUseFXAA(finer == 1 && view.maximumGrains == 0); // a moving picture needs speed
-  d.grains.show(d.visible, subset, colours.ofGrain);
+  d.showGrains(subset, colours.ofGrain, view.meshes, {d.camera, over.width, over.height});
   d.walls.show(frame, view, d.camera, box, static_cast<float>(finer));
   d.setCamera(box);
   d.overlay->Modified();
@@ -224,6 +260,14 @@ Image Renderer::draw(const Frame& frame, const View& view) {
 
 void Renderer::setHistory(std::shared_ptr<const History> history) {
   impl_->history = std::move(history);
+}
+
+void Renderer::setDetail(const Detail& detail) {
+  impl_->detail = detail;
+}
+
+std::size_t Renderer::drawnGrains() const {
+  return impl_->drawn;
 }
 
 Image Renderer::draw(const analysis::Curve& curve, int width, int height) {

@@ -26,6 +26,12 @@ class History;
 
 enum class GlBackend { automatic, osmesa, egl };
 
+/// What is drawn more cheaply where nobody sees it; off for tests and comparisons.
+struct Detail {
+  bool skipHidden = true;   ///< leave out grains that are wholly behind others: no pixel changes
+  double smallestShape = 4; ///< [pixel] superellipsoids less wide are drawn as spheres
+};
+
 struct PickResult {
   std::int64_t grain = -1; ///< id, or -1
   Vec3 point = Vec3::Zero();
@@ -41,6 +47,11 @@ public:
 
   /// What the next pictures need of other frames (original positions, tracks); null: nothing.
   void setHistory(std::shared_ptr<const History> history);
+
+  void setDetail(const Detail& detail);
+
+  /// Grains that the last picture sent to the rasteriser.
+  std::size_t drawnGrains() const;
 
   /// Draws a chart with VTK charts.
   Image draw(const analysis::Curve& curve, int width, int height);

@@ -37,10 +37,22 @@ double surroundingRadius(const GrainShape& shape) {
   return shape.e1 >= 1 ? std::max(across, axes.z()) : std::hypot(across, axes.z());
 }
 
-double inscribedRadius(const GrainShape& shape) {
-  // The octahedron, e = 2, holds a sphere of 1 / sqrt(3) of its smallest semi-axis; rounder shapes more.
+Vec3 inscribedEllipsoid(const GrainShape& shape) {
+  // The octahedron, e = 2, holds the ellipsoid of 1 / sqrt(3) of its semi-axes, rounder shapes a larger one.
   const bool round = shape.e1 <= 1 && shape.e2 <= 1;
-  return shape.semiAxes.minCoeff() * (round ? 1 : 1 / std::sqrt(3.0));
+  return shape.semiAxes * (round ? 1 : 1 / std::sqrt(3.0));
+}
+
+double support(const GrainShape& shape, const Vec3& direction) {
+  const Vec3 d = direction.cwiseProduct(shape.semiAxes).cwiseAbs();
+  const auto joined = [](double x, double y, double e) {
+    const double most = std::max(x, y), least = std::min(x, y);
+    if (most == 0 || e >= 2) return most;
+    if (e == 1) return std::hypot(most, least);
+    const double p = 2 / (2 - e);
+    return most * std::pow(1 + std::pow(least / most, p), 1 / p);
+  };
+  return joined(joined(d.x(), d.y(), shape.e2), d.z(), shape.e1);
 }
 
 std::optional<double> entryDistance(const GrainShape& shape, const Ray& ray) {

@@ -16,8 +16,12 @@ namespace sandglass::vis {
 /// The radius of a sphere around the shape: the smallest for ellipsoids, that of its box otherwise.
 double surroundingRadius(const GrainShape& shape);
 
-/// The radius of a sphere inside the shape.
-double inscribedRadius(const GrainShape& shape);
+/// Semi-axes of an ellipsoid inside the shape.
+Vec3 inscribedEllipsoid(const GrainShape& shape);
+
+/// How far the shape reaches from its centre along a direction given in its own axes, of unit length: the
+/// dual of the norm, with exponents 2 / (2 - e).
+double support(const GrainShape& shape, const Vec3& direction);
 
 /// Distance along a ray, given in the shape's own axes, to where it enters the shape; nothing when it misses
 /// or starts inside.

@@ -113,6 +113,6 @@ TEST_CASE("clips that come and go leave nothing behind") {
   Renderer renderer;
   const Image whole = renderer.draw(sheet(), sheetView());
   for (const View& view : clippedViews())
-    CHECK(renderer.draw(sheet(), view).rgba != whole.rgba);
-  CHECK(renderer.draw(sheet(), sheetView()).rgba == whole.rgba);
+    CHECK((renderer.draw(sheet(), view).rgba != whole.rgba));
+  CHECK((renderer.draw(sheet(), sheetView()).rgba == whole.rgba));
 }

@@ -1,0 +1,182 @@
+#include "vis/unhidden.h"
+
+#include "vis/superellipsoid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace sandglass::vis {
+
+namespace {
+
+/// Pixels for a metre at unit depth; for a picture without perspective at any depth.
+double pixelsPerMetre(const PictureGeometry& picture) {
+  const Camera& camera = picture.camera;
+  if (camera.orthographic) return picture.height / camera.orthographicHeight;
+  return picture.height / 2.0 / std::tan(camera.viewAngle * std::numbers::pi / 360);
+}
+
+struct Seen {
+  float front; ///< depth of the foremost point [m]
+  std::uint32_t grain;
+};
+
+/// A grain as the camera sees it: right, up and forward are x, y and z.
+struct Outline {
+  Vec3 place = Vec3::Zero(); ///< of its middle, from the eye [m]
+  Vec3 reach = Vec3::Zero(); ///< half its box
+  /// Its inner ellipse in the plane through the middle: xx x^2 + 2 xy x y + yy y^2 <= 1.
+  double xx = 0, xy = 0, yy = 0;
+};
+
+class Outlines {
+public:
+  Outlines(const VisibleGrains& grains, const Camera& camera)
+      : grains_(grains), eye_(camera.position), axes_(axesOf(camera)) {}
+
+  double front(std::size_t k) const {
+    return (grains_.position[k] - eye_).dot(axes_.forward) - reachAlong(k, axes_.forward);
+  }
+  Outline operator()(std::size_t k) const {
+    const Vec3 d = grains_.position[k] - eye_;
+    Outline o;
+    o.place = Vec3(d.dot(axes_.right), d.dot(axes_.up), d.dot(axes_.forward));
+    if (grains_.isSphere(k)) {
+      o.reach.setConstant(grains_.radius[k]);
+      o.xx = o.yy = 1 / (grains_.radius[k] * grains_.radius[k]);
+      return o;
+    }
+    o.reach = Vec3(reachAlong(k, axes_.right), reachAlong(k, axes_.up), reachAlong(k, axes_.forward));
+    const Vec3 inner = inscribedEllipsoid(shapeOf(k));
+    const Eigen::Quaterniond back = grains_.orientation[k].conjugate();
+    const Vec3 right = (back * axes_.right).cwiseQuotient(inner), up = (back * axes_.up).cwiseQuotient(inner);
+    o.xx = right.squaredNorm();
+    o.xy = right.dot(up);
+    o.yy = up.squaredNorm();
+    return o;
+  }
+
+private:
+  const GrainShape& shapeOf(std::size_t k) const {
+    return grains_.shapes[static_cast<std::size_t>(grains_.shape[k])];
+  }
+  double reachAlong(std::size_t k, const Vec3& direction) const {
+    if (grains_.isSphere(k)) return grains_.radius[k];
+    return support(shapeOf(k), grains_.orientation[k].conjugate() * direction);
+  }
+
+  const VisibleGrains& grains_;
+  Vec3 eye_;
+  CameraAxes axes_;
+};
+
+class DepthMap {
+public:
+  explicit DepthMap(const PictureGeometry& picture)
+      : width_(picture.width), height_(picture.height), scale_(pixelsPerMetre(picture)),
+        flat_(picture.camera.orthographic),
+        depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
+               std::numeric_limits<float>::infinity()) {}
+
+  bool mayBeSeen(const Outline& o) const {
+    const double front = o.place.z() - o.reach.z(), back = o.place.z() + o.reach.z();
+    if (!flat_ && back <= 0) return false;
+    if (!flat_ && front <= 1e-6 * back) return true; // around the eye
+    const auto [left, right] = across(o.place.x(), o.reach.x(), front, back);
+    const auto [bottom, top] = across(o.place.y(), o.reach.y(), front, back);
+    const int x0 = std::max(0, pixel(left, width_)), x1 = std::min(width_ - 1, pixel(right, width_));
+    const int y0 = std::max(0, pixel(bottom, height_)), y1 = std::min(height_ - 1, pixel(top, height_));
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x)
+        if (depth_[at(x, y)] > front) return true;
+    return false;
+  }
+
+  /// Pixels whose centres lie in the inner ellipse are covered at its depth.
+  void cover(const Outline& o) {
+    if (!flat_ && o.place.z() <= o.reach.z()) return;
+    const double scale = flat_ ? scale_ : scale_ / o.place.z();
+    // Of the ellipse xx x^2 + 2 xy x y + yy y^2 = 1: at height y it runs from (-xy y - w) / xx to
+    // (-xy y + w) / xx, w^2 = xx - y^2 (xx yy - xy^2); its highest y is sqrt(xx / (xx yy - xy^2)).
+    const double xx = o.xx / (scale * scale), xy = o.xy / (scale * scale), yy = o.yy / (scale * scale);
+    const double determinant = xx * yy - xy * xy;
+    constexpr double margin = 0.1; // [pixel] for rounding in the rasteriser
+    const double highest = std::sqrt(xx / determinant) - margin;
+    if (!(highest > 0)) return;
+    const double middleX = o.place.x() * scale + width_ / 2.0;
+    const double middleY = o.place.y() * scale + height_ / 2.0;
+    const int y0 = std::max(0, static_cast<int>(std::ceil(middleY - highest - 0.5)));
+    const int y1 = std::min(height_ - 1, static_cast<int>(std::floor(middleY + highest - 0.5)));
+    const auto depth = static_cast<float>(o.place.z());
+    for (int y = y0; y <= y1; ++y) {
+      const double dy = y + 0.5 - middleY;
+      const double half = std::sqrt(std::max(0.0, xx - dy * dy * determinant)) / xx - margin;
+      const double middle = middleX - xy * dy / xx;
+      const int x0 = std::max(0, static_cast<int>(std::ceil(middle - half - 0.5)));
+      const int x1 = std::min(width_ - 1, static_cast<int>(std::floor(middle + half - 0.5)));
+      for (int x = x0; x <= x1; ++x)
+        depth_[at(x, y)] = std::min(depth_[at(x, y)], depth);
+    }
+  }
+
+private:
+  struct Interval {
+    double low, high;
+  };
+  /// Picture coordinates that a box can reach along one axis, in pixels from the middle.
+  Interval across(double x, double reach, double front, double back) const {
+    if (flat_) return {(x - reach) * scale_, (x + reach) * scale_};
+    const double near = scale_ / front, far = scale_ / back;
+    return {(x - reach) * (x < reach ? near : far), (x + reach) * (x > -reach ? near : far)};
+  }
+  static int pixel(double fromMiddle, int size) {
+    constexpr double most = 1e8;
+    return static_cast<int>(std::floor(std::clamp(fromMiddle, -most, most) + size / 2.0));
+  }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  int width_, height_;
+  double scale_;
+  bool flat_;
+  std::vector<float> depth_;
+};
+
+} // namespace
+
+double pixelsAcross(const Vec3& place, double radius, const PictureGeometry& picture) {
+  const double depth = (place - picture.camera.position).dot(axesOf(picture.camera).forward);
+  const double scale = pixelsPerMetre(picture);
+  if (picture.camera.orthographic) return 2 * radius * scale;
+  return depth > radius ? 2 * radius * scale / depth : std::numeric_limits<double>::infinity();
+}
+
+std::vector<std::size_t> unhidden(const VisibleGrains& grains, const PictureGeometry& picture,
+                                  bool skipHidden) {
+  const Outlines outlines(grains, picture.camera);
+  std::vector<Seen> order(grains.size());
+  for (std::size_t k = 0; k < grains.size(); ++k)
+    order[k] = {static_cast<float>(outlines.front(k)), static_cast<std::uint32_t>(k)};
+  std::sort(order.begin(), order.end(), [](const Seen& a, const Seen& b) {
+    return a.front < b.front || (a.front == b.front && a.grain < b.grain);
+  });
+  std::vector<std::size_t> result;
+  if (!skipHidden) {
+    for (const Seen& seen : order)
+      result.push_back(seen.grain);
+    return result;
+  }
+  DepthMap map(picture);
+  for (const Seen& seen : order) {
+    const Outline outline = outlines(seen.grain);
+    if (!map.mayBeSeen(outline)) continue;
+    result.push_back(seen.grain);
+    map.cover(outline);
+  }
+  return result;
+}
+
+} // namespace sandglass::vis
