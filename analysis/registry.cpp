@@ -13,6 +13,8 @@ const std::vector<AnalysisKind>& analysisKinds() {
       pairCorrelationKind(),
       bondAngleKind(),
       voronoiKind(),
+      orderKind(),
+      coordinationKind(),
   };
   return kinds;
 }

@@ -8,5 +8,7 @@ namespace sandglass::analysis {
 AnalysisKind pairCorrelationKind();
 AnalysisKind bondAngleKind();
 AnalysisKind voronoiKind();
+AnalysisKind orderKind();
+AnalysisKind coordinationKind();
 
 } // namespace sandglass::analysis
