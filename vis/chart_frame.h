@@ -31,11 +31,13 @@ public:
   ChartMargins margins() const;
   bool Paint(vtkContext2D* painter) override;
 
-private:
+  /// The rectangle between the axes [pixel from the lower left corner]; once painted.
   struct PlotArea {
     float x0, x1, y0, y1;
   };
   PlotArea plotArea() const;
+
+private:
   std::vector<std::string> definitionLines() const;
   bool hasKey() const;
   void paintKey(vtkContext2D* painter, float y) const;

@@ -170,6 +170,16 @@ void ChartLayer::show(const analysis::Curve& curve, int width, int height) {
   actor_->GetScene()->ClearItems();
   actor_->GetScene()->AddItem(chart);
   actor_->GetScene()->AddItem(frame);
+  frame_ = frame;
+  range_ = range;
+}
+
+ChartPlace ChartLayer::place() const {
+  if (!frame_) return {};
+  const auto area = frame_->plotArea();
+  const double h = frame_->height;
+  return {area.x0,      area.x1,       h - area.y1,  h - area.y0,
+          range_.x.low, range_.x.high, range_.y.low, range_.y.high};
 }
 
 } // namespace sandglass::vis

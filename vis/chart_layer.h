@@ -3,10 +3,14 @@
 // and the definition line.
 
 #include "analysis/result.h"
+#include "vis/chart_frame.h"
+#include "vis/chart_range.h"
+#include "vis/renderer.h"
 
 #include <vtkContextActor.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 namespace sandglass::vis {
 
@@ -17,10 +21,14 @@ public:
 
   /// Replaces what is shown.
   void show(const analysis::Curve& curve, int width, int height);
+  /// Of what was painted last.
+  ChartPlace place() const;
 
 private:
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkContextActor> actor_;
+  vtkSmartPointer<ChartFrame> frame_;
+  ChartRange range_;
 };
 
 } // namespace sandglass::vis

@@ -270,6 +270,10 @@ std::size_t Renderer::drawnGrains() const {
   return impl_->drawn;
 }
 
+ChartPlace Renderer::chartPlace() const {
+  return impl_->charts.place();
+}
+
 Image Renderer::draw(const analysis::Curve& curve, int width, int height) {
   refuseBadSize(width, height);
   Impl& d = *impl_;

@@ -37,6 +37,12 @@ struct PickResult {
   Vec3 point = Vec3::Zero();
 };
 
+/// Where the axes of a chart lie in its picture and what they span: from a pixel to values.
+struct ChartPlace {
+  double left = 0, right = 0, top = 0, bottom = 0; ///< [pixel] from the upper left corner
+  double xLow = 0, xHigh = 1, yLow = 0, yHigh = 1;
+};
+
 class Renderer {
 public:
   explicit Renderer(GlBackend backend = GlBackend::automatic);
@@ -55,6 +61,7 @@ public:
 
   /// Draws a chart with VTK charts.
   Image draw(const analysis::Curve& curve, int width, int height);
+  ChartPlace chartPlace() const; ///< of the chart drawn last
 
   /// The grain under a pixel of the last drawn frame, by the same clip planes as drawing.
   PickResult pick(int x, int y) const;

@@ -1,20 +1,97 @@
 #include "app/desktop/chart_panel.h"
 
+#include "app/desktop/chart_curves.h"
+
+#include <QHBoxLayout>
+#include <QMouseEvent>
 #include <QPainter>
+#include <QSignalBlocker>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
 
 namespace sandglass::desktop {
 
 namespace {
 
 constexpr int smallest = 40; ///< [pixel] below which no chart is worth drawing
+constexpr double zoomPerNotch = 1.25;
+constexpr int shortestDrag = 6; ///< [pixel]
 
 } // namespace
 
 ChartPanel::ChartPanel(const QString& name, const QString& hint, QWidget* parent)
     : QWidget(parent), hint_(hint) {
   setObjectName(name);
-  setMinimumSize(180, 120);
+  setMinimumSize(180, 140);
   setAttribute(Qt::WA_OpaquePaintEvent);
+  setMouseTracking(true);
+  setToolTip("");
+  bar_ = new QWidget(this);
+  bar_->setObjectName("chartBar");
+  bar_->setAttribute(Qt::WA_StyledBackground);
+  auto* row = new QHBoxLayout(bar_);
+  row->setContentsMargins(6, 2, 6, 2);
+  row->setSpacing(2);
+  row->addStretch(1);
+  connect(button("pin", "Pin", "Keep this curve for comparison with those that come"), &QToolButton::clicked,
+          this, &ChartPanel::pin);
+  unpin_ = button("unpin", "Unpin", "Take the pinned curves away");
+  connect(unpin_, &QToolButton::clicked, this, &ChartPanel::unpin);
+  unpin_->hide();
+  logX_ = button("logX", "log x", "Logarithmic x axis; values that are not positive are left out");
+  logY_ = button("logY", "log y", "Logarithmic y axis; values that are not positive are left out");
+  for (auto* b : {logX_, logY_}) {
+    b->setCheckable(true);
+    connect(b, &QToolButton::toggled, this, [this] {
+      zoom_.reset();
+      want();
+    });
+  }
+  for (const char* suffix : {"csv", "png"})
+    connect(button(suffix, QString(suffix).toUpper(),
+                   QString("Save what is shown as %1").arg(QString(suffix).toUpper())),
+            &QToolButton::clicked, this, [this, suffix] {
+              if (curve_) Q_EMIT exportWanted(drawn(), suffix);
+            });
+}
+
+QToolButton* ChartPanel::button(const char* name, const QString& text, const QString& tip) {
+  auto* made = new QToolButton(bar_);
+  made->setObjectName(name);
+  made->setText(text);
+  made->setToolTip(tip);
+  made->setAccessibleName(text);
+  made->setAutoRaise(true);
+  made->setFocusPolicy(Qt::TabFocus);
+  bar_->layout()->addWidget(made);
+  return made;
+}
+
+void ChartPanel::offerQuantities(const std::vector<std::string>& names) {
+  if (!quantity_) {
+    quantity_ = new QComboBox(bar_);
+    quantity_->setObjectName("chartQuantity");
+    quantity_->setAccessibleName("Quantity");
+    static_cast<QHBoxLayout*>(bar_->layout())->insertWidget(0, quantity_);
+    connect(quantity_, QOverload<int>::of(&QComboBox::activated), this, [this] {
+      zoom_.reset();
+      Q_EMIT quantityChosen();
+    });
+  }
+  QStringList list;
+  for (const auto& name : names)
+    list << QString::fromStdString(name);
+  QStringList now;
+  for (int k = 0; k < quantity_->count(); ++k)
+    now << quantity_->itemText(k);
+  if (list == now) return;
+  const QSignalBlocker blocker(quantity_);
+  const QString chosen = quantity_->currentText().isEmpty() ? "speed" : quantity_->currentText();
+  quantity_->clear();
+  quantity_->addItems(list);
+  quantity_->setCurrentIndex(std::max(0, quantity_->findText(chosen)));
 }
 
 void ChartPanel::setCurve(analysis::Curve curve) {
@@ -22,9 +99,10 @@ void ChartPanel::setCurve(analysis::Curve curve) {
   want();
 }
 
-void ChartPanel::setImage(const QImage& image) {
+void ChartPanel::setImage(const QImage& image, const vis::ChartPlace& place) {
   if (!curve_) return; // cleared while it was drawn
   image_ = image;
+  place_ = place;
   waiting_ = false;
   ++charts_;
   update();
@@ -37,15 +115,50 @@ void ChartPanel::clear(const QString& hint) {
   update();
 }
 
+void ChartPanel::pin() {
+  if (!curve_) return;
+  for (auto series : curve_->series) {
+    const QString name = pinName_.isEmpty() ? "pinned" : pinName_;
+    series.name = (series.name.empty() ? "" : series.name + ", ") + name.toStdString();
+    series.error.clear();
+    pins_.push_back(std::move(series));
+  }
+  unpin_->show();
+  want();
+}
+
+void ChartPanel::unpin() {
+  pins_.clear();
+  unpin_->hide();
+  want();
+}
+
+void ChartPanel::showAll() {
+  zoom_.reset();
+  want();
+}
+
+analysis::Curve ChartPanel::drawn() const {
+  analysis::Curve all = *curve_;
+  if (!pins_.empty() && all.series.size() == 1 && all.series[0].name.empty()) all.series[0].name = "now";
+  all.series.insert(all.series.end(), pins_.begin(), pins_.end());
+  if (logX_->isChecked()) all = logarithmic(std::move(all), true);
+  if (logY_->isChecked()) all = logarithmic(std::move(all), false);
+  if (zoom_) all = cutOut(std::move(all), zoom_->first, zoom_->second);
+  return all;
+}
+
 void ChartPanel::want() {
   outdated_ = true;
-  if (!curve_ || !isVisible() || width() < smallest || height() < smallest) return;
+  const QSize size(width(), height() - bar_->height());
+  if (!curve_ || !isVisible() || size.width() < smallest || size.height() < smallest) return;
   outdated_ = false;
   waiting_ = true;
-  Q_EMIT wanted(objectName(), *curve_, size() * devicePixelRatioF());
+  Q_EMIT wanted(objectName(), drawn(), size * devicePixelRatioF());
 }
 
 void ChartPanel::resizeEvent(QResizeEvent*) {
+  bar_->setGeometry(0, height() - bar_->sizeHint().height(), width(), bar_->sizeHint().height());
   want();
 }
 
@@ -53,16 +166,97 @@ void ChartPanel::showEvent(QShowEvent*) {
   if (outdated_) want();
 }
 
+double ChartPanel::valueAt(double pixel) const {
+  const double share = (pixel * devicePixelRatioF() - place_.left) / (place_.right - place_.left);
+  return place_.xLow + share * (place_.xHigh - place_.xLow);
+}
+
+void ChartPanel::zoomTo(double low, double high) {
+  if (!(high > low)) return;
+  zoom_ = {low, high};
+  want();
+}
+
+void ChartPanel::mousePressEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && !image_.isNull()) dragFrom_ = event->pos();
+}
+
+void ChartPanel::mouseMoveEvent(QMouseEvent* event) {
+  pointer_ = event->pos();
+  update();
+}
+
+void ChartPanel::mouseReleaseEvent(QMouseEvent* event) {
+  const auto from = std::exchange(dragFrom_, std::nullopt);
+  update();
+  if (!from || std::abs(event->x() - from->x()) < shortestDrag) return;
+  zoomTo(valueAt(std::min(event->x(), from->x())), valueAt(std::max(event->x(), from->x())));
+}
+
+void ChartPanel::mouseDoubleClickEvent(QMouseEvent*) {
+  showAll();
+}
+
+void ChartPanel::wheelEvent(QWheelEvent* event) {
+  if (image_.isNull()) return;
+  const double factor = std::pow(zoomPerNotch, -event->angleDelta().y() / 120.0);
+  const double x = valueAt(event->position().x());
+  zoomTo(x + (place_.xLow - x) * factor, x + (place_.xHigh - x) * factor);
+  event->accept();
+}
+
+void ChartPanel::leaveEvent(QEvent*) {
+  pointer_.reset();
+  update();
+}
+
 void ChartPanel::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), Qt::white);
-  if (!image_.isNull()) {
-    painter.setRenderHint(QPainter::SmoothPixmapTransform, image_.size() != size() * devicePixelRatioF());
-    painter.drawImage(rect(), image_);
+  const QRect area(0, 0, width(), height() - bar_->height());
+  if (image_.isNull()) {
+    painter.setPen(QColor(95, 101, 108));
+    painter.drawText(area.adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap, hint_);
     return;
   }
-  painter.setPen(QColor(120, 126, 133));
-  painter.drawText(rect().adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap, hint_);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, image_.size() != area.size() * devicePixelRatioF());
+  painter.drawImage(area, image_);
+  if (dragFrom_ && pointer_) {
+    const int left = std::min(dragFrom_->x(), pointer_->x()), right = std::max(dragFrom_->x(), pointer_->x());
+    const double r = devicePixelRatioF();
+    painter.fillRect(QRectF(left, place_.top / r, right - left, (place_.bottom - place_.top) / r),
+                     QColor(31, 111, 120, 40));
+  }
+  paintReadOut(painter);
+}
+
+void ChartPanel::paintReadOut(QPainter& painter) {
+  if (!pointer_ || !curve_ || dragFrom_) return;
+  const double r = devicePixelRatioF();
+  const double px = pointer_->x() * r, py = pointer_->y() * r;
+  if (px < place_.left || px > place_.right || py < place_.top || py > place_.bottom) return;
+  const auto nearest = nearestPoint(drawn(), place_, px, py);
+  if (!nearest) return;
+  const QPointF at(nearest->pixelX / r, nearest->pixelY / r);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(40, 44, 52), 1.5));
+  painter.setBrush(Qt::white);
+  painter.drawEllipse(at, 4, 4);
+  const QString name = QString::fromStdString(nearest->series);
+  const QString text = QString("%1%2, %3")
+                           .arg(name.isEmpty() ? "" : name + ":  ")
+                           .arg(nearest->x, 0, 'g', 5)
+                           .arg(nearest->y, 0, 'g', 5);
+  QRectF box = painter.fontMetrics().boundingRect(text);
+  box.adjust(-6, -3, 6, 3);
+  box.moveCenter(at + QPointF(0, -18));
+  box.moveLeft(std::clamp(box.left(), 2.0, std::max(2.0, width() - box.width() - 2)));
+  if (box.top() < 2) box.moveTop(at.y() + 10);
+  painter.setBrush(QColor(255, 255, 255, 235));
+  painter.setPen(QColor(170, 176, 182));
+  painter.drawRoundedRect(box, 4, 4);
+  painter.setPen(QColor(40, 44, 52));
+  painter.drawText(box, Qt::AlignCenter, text);
 }
 
 } // namespace sandglass::desktop

@@ -1,5 +1,7 @@
 #include "app/desktop/command_table.h"
 
+#include "app/desktop/style.h"
+
 #include <QMenu>
 
 namespace sandglass::desktop {
@@ -27,7 +29,8 @@ QString line(const QString& what, const QString& how) {
 
 CommandTable::CommandTable(QWidget* window, std::vector<Command> rows) : rows_(std::move(rows)) {
   for (const auto& row : rows_) {
-    auto* action = new QAction(row.icon, row.name, window);
+    auto* action = new QAction(row.name, window);
+    if (!row.icon.isEmpty()) action->setIcon(icon(row.icon));
     action->setObjectName(row.id);
     action->setShortcuts(row.keys);
     action->setCheckable(row.checkable);
@@ -43,6 +46,11 @@ CommandTable::CommandTable(QWidget* window, std::vector<Command> rows) : rows_(s
 
 QAction* CommandTable::action(const QString& id) const {
   return actions_.at(id);
+}
+
+void CommandTable::refreshIcons() const {
+  for (const auto& row : rows_)
+    if (!row.icon.isEmpty()) actions_.at(row.id)->setIcon(icon(row.icon));
 }
 
 void CommandTable::fill(QMenuBar* bar) const {

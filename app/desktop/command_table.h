@@ -3,7 +3,6 @@
 // made from the rows.
 
 #include <QAction>
-#include <QIcon>
 #include <QKeySequence>
 #include <QMenuBar>
 #include <QString>
@@ -21,7 +20,7 @@ struct Command {
   QString name; ///< as the menu shows it
   QList<QKeySequence> keys;
   QString toolTip; ///< one sentence
-  QIcon icon;
+  QString icon;    ///< name of a drawing in style.h; empty: none
   bool inToolBar = false;
   bool checkable = false, checked = false;
   bool beginsGroup = false;          ///< a line above it
@@ -34,6 +33,7 @@ public:
   CommandTable(QWidget* window, std::vector<Command> rows);
 
   QAction* action(const QString& id) const; ///< there must be one
+  void refreshIcons() const;                ///< the theme has changed
   const std::vector<Command>& rows() const { return rows_; }
 
   void fill(QMenuBar* bar) const;

@@ -2,6 +2,7 @@
 
 #include "app/desktop/background.h"
 #include "sim/base/error.h"
+#include "vis/chart.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +29,9 @@ QImage toQImage(vis::Image image) {
   return borrowed.convertToFormat(QImage::Format_RGB32);
 }
 
-DrawingThread::DrawingThread(vis::GlBackend backend) : thread_([this, backend] { work(backend); }) {}
+DrawingThread::DrawingThread(vis::GlBackend backend) : thread_([this, backend] { work(backend); }) {
+  qRegisterMetaType<vis::ChartPlace>("sandglass::vis::ChartPlace");
+}
 
 DrawingThread::~DrawingThread() {
   {
@@ -60,6 +63,12 @@ void DrawingThread::pick(QPoint pixel) {
 void DrawingThread::save(PictureFile file) {
   const std::lock_guard lock(mutex_);
   files_.push_back(std::move(file));
+  changed_.notify_all();
+}
+
+void DrawingThread::saveChart(analysis::Curve curve, const QString& file) {
+  const std::lock_guard lock(mutex_);
+  chartFiles_.emplace_back(std::move(curve), file);
   changed_.notify_all();
 }
 
@@ -138,13 +147,27 @@ std::optional<DrawingThread::Task> DrawingThread::dueTask(Clock::time_point now)
     chartLast_ = true;
     auto node = charts_.extract(charts_.begin());
     return [this, panel = node.key(), order = std::move(node.mapped())](vis::Renderer& r) {
-      Q_EMIT chartReady(panel, toQImage(r.draw(order.curve, order.pixels.width(), order.pixels.height())));
+      const QImage image = toQImage(r.draw(order.curve, order.pixels.width(), order.pixels.height()));
+      Q_EMIT chartReady(panel, image, r.chartPlace());
     };
   }
   if (!files_.empty()) {
     PictureFile file = std::move(files_.front());
     files_.pop_front();
     return [this, file = std::move(file)](vis::Renderer& r) { writePicture(r, file); };
+  }
+  if (!chartFiles_.empty()) {
+    auto [curve, file] = std::move(chartFiles_.front());
+    chartFiles_.pop_front();
+    return [this, curve = std::move(curve), file = file](vis::Renderer& r) {
+      QString fault;
+      try {
+        vis::writeChart(r, curve, file.toStdString());
+      } catch (const std::exception& e) {
+        fault = QString::fromUtf8(e.what());
+      }
+      Q_EMIT saved(file, fault);
+    };
   }
   return std::nullopt;
 }

@@ -64,15 +64,16 @@ public:
 
   void draw(PictureOrder order);
   void drawChart(const QString& panel, analysis::Curve curve, QSize pixels);
-  void pick(QPoint pixel);     ///< of the picture drawn last
-  void save(PictureFile file); ///< never dropped
+  void pick(QPoint pixel);                                    ///< of the picture drawn last
+  void save(PictureFile file);                                ///< never dropped
+  void saveChart(analysis::Curve curve, const QString& file); ///< likewise; PNG
   void setSimulationRuns(bool runs);
 
   std::optional<Picture> takePicture() { return out_.take(); }
 
 Q_SIGNALS: // from the drawing thread: connect to objects of the window's thread
   void pictureReady();
-  void chartReady(const QString& panel, const QImage& image);
+  void chartReady(const QString& panel, const QImage& image, const sandglass::vis::ChartPlace& place);
   void picked(qint64 grain);
   void saved(const QString& file, const QString& fault); ///< no fault: it is there
   void failed(const QString& sentence);
@@ -99,6 +100,7 @@ private:
   std::optional<PictureOrder> picture_;
   std::map<QString, ChartOrder> charts_;
   std::deque<PictureFile> files_;
+  std::deque<std::pair<analysis::Curve, QString>> chartFiles_;
   std::optional<QPoint> pick_;
   bool simulationRuns_ = false, quit_ = false, chartLast_ = false;
   Clock::time_point pictureFrom_{}, chartFrom_{}; ///< not before
@@ -111,3 +113,5 @@ private:
 QImage toQImage(vis::Image image);
 
 } // namespace sandglass::desktop
+
+Q_DECLARE_METATYPE(sandglass::vis::ChartPlace)

@@ -9,11 +9,13 @@
 
 #include <CLI/CLI.hpp>
 #include <QApplication>
+#include <QStandardPaths>
 #include <QTimer>
 
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 namespace {
 
@@ -21,11 +23,12 @@ struct Arguments {
   std::string path, folder, viewFile, screenshot, size = "1440x900", backend = "auto";
   int threads = 0;
   double at = -1;
-  bool run = false;
+  bool run = false, dark = false;
 };
 
 void addOptions(CLI::App& app, Arguments& a) {
-  app.add_option("PATH", a.path, "a scene, the folder of a run, a file of frames, or a saved picture");
+  app.add_option("PATH", a.path,
+                 "a scene, the folder of a run, a file of frames, a saved picture or session");
   app.add_option("-o,--output", a.folder, "folder of the run (out/<name of the scene>)");
   app.add_option("--threads", a.threads, "of the simulation; 0: all cores")->check(CLI::NonNegativeNumber);
   app.add_flag("--run", a.run, "start at once");
@@ -34,6 +37,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--size", a.size, "of the window, WIDTHxHEIGHT [pixel]");
   app.add_option("--screenshot", a.screenshot,
                  "save what the window looks like as PNG, then quit; needs no display");
+  app.add_flag("--dark", a.dark, "light letters on dark ground");
   app.add_option("--gl", a.backend, "who draws")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
 }
 
@@ -70,16 +74,22 @@ int show(const Arguments& a, int argc, char** argv) {
   options.session.threads = a.threads;
   options.session.folder = a.folder;
   options.backend = backendOf(a.backend);
+  if (a.screenshot.empty())
+    options.settingsFile =
+        QStandardPaths::writableLocation(QStandardPaths::ConfigLocation) + "/sandglass/desktop.ini";
   options.asksNothing = !a.screenshot.empty();
   std::optional<sandglass::vis::View> view;
   if (!a.viewFile.empty()) view = sandglass::vis::readView(a.viewFile);
+  bool shown = false;
   MainWindow window(options);
   window.resize(sizeOf(a.size));
   QObject::connect(&window.session(), &Session::opened, &window, [&] {
+    if (std::exchange(shown, true)) return; // what is opened later is as it is
     if (view) window.showView(*view);
     if (a.at >= 0) window.showTime(a.at);
     if (a.run) window.session().start();
   });
+  if (a.dark) window.commands().action("window.dark")->trigger();
   window.show();
   if (!a.path.empty()) window.open(QString::fromStdString(a.path));
   if (a.screenshot.empty()) return QApplication::exec();

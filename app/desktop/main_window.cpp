@@ -1,10 +1,14 @@
 #include "app/desktop/main_window.h"
 
+#include "app/desktop/accuracy_panel.h"
 #include "app/desktop/chart_panel.h"
+#include "app/desktop/inspector_panel.h"
 #include "app/desktop/picture_view.h"
+#include "app/desktop/run_panel.h"
+#include "app/desktop/scene_panel.h"
+#include "app/desktop/start_page.h"
 #include "app/desktop/text_panels.h"
 #include "app/desktop/view_panel.h"
-#include "sim/base/error.h"
 
 #include <QCloseEvent>
 #include <QDragEnterEvent>
@@ -13,28 +17,21 @@
 #include <QStatusBar>
 #include <QVBoxLayout>
 
-#include <algorithm>
-
 namespace sandglass::desktop {
 
 namespace {
 
-constexpr int curveInterval = 1000;     ///< [ms] between looks at the probes' new samples
-constexpr int grainsWhileMoving = 4000; ///< drawn while the camera moves
-
-const char* const hintTitle = "Open a scene or a run";
-const char* const hintText = "Drop a scene (.toml), a run folder or a file of frames here, or press Ctrl+O.\n"
-                             "Samples to start from are in sample_runs.    Press ? for all keys.";
+constexpr int curveInterval = 1000; ///< [ms] between looks at the probes' new samples
 
 } // namespace
 
 MainWindow::MainWindow(const WindowOptions& options)
-    : options_(options), session_(std::make_unique<Session>(options.session)),
-      drawing_(std::make_unique<DrawingThread>(options.backend)),
-      pairs_(std::make_unique<PairCorrelationWorker>()) {
+    : options_(options), drawing_(std::make_unique<DrawingThread>(options.backend)),
+      analyses_(std::make_unique<AnalysisWorker>()) {
   setWindowTitle("Sandglass");
   setAcceptDrops(true);
   setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowTabbedDocks | QMainWindow::AllowNestedDocks);
+  setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   pool_.setMaxThreadCount(1);
   buildCentre();
   commands_ = std::make_unique<CommandTable>(this, commandRows());
@@ -46,17 +43,23 @@ MainWindow::MainWindow(const WindowOptions& options)
   bar->setToolButtonStyle(Qt::ToolButtonIconOnly);
   commands_->fill(bar);
   buildDocks();
+  buildCharts();
+  connectPanels();
   connectDrawing();
-  connectSession();
   curveTimer_.setInterval(curveInterval);
   connect(&curveTimer_, &QTimer::timeout, this, &MainWindow::refreshCurves);
   resize(1440, 900);
-  onState();
+  resizeDocks({docks_["view"], docks_["energies"]}, {310, 390}, Qt::Horizontal);
+  resizeDocks({docks_["view"], docks_["scene"]}, {400, 400}, Qt::Vertical);
+  enter(addDocument());
+  readSettings();
 }
 
 MainWindow::~MainWindow() {
-  session_->disconnect(this);
-  session_->stopAndWait();
+  for (const auto& document : documents_) {
+    document->session->disconnect(this);
+    document->session->stopAndWait();
+  }
   pool_.waitForDone();
 }
 
@@ -65,21 +68,43 @@ void MainWindow::buildCentre() {
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
+  tabBar_ = new QTabBar(centre);
+  tabBar_->setObjectName("tabs");
+  tabBar_->setAccessibleName("Open scenes and runs");
+  tabBar_->setTabsClosable(true);
+  tabBar_->setExpanding(false);
+  tabBar_->setDrawBase(false);
+  centre_ = new QStackedWidget(centre);
+  auto* pictures = new QWidget;
+  auto* below = new QVBoxLayout(pictures);
+  below->setContentsMargins(0, 0, 0, 0);
+  below->setSpacing(0);
+  below->addWidget(picture_ = new PictureView(pictures), 1);
+  below->addWidget(time_ = new TimeBar(pictures));
+  centre_->addWidget(start_ = new StartPage);
+  centre_->addWidget(pictures);
+  column->addWidget(tabBar_);
   column->addWidget(banner_ = new Banner(centre));
-  column->addWidget(picture_ = new PictureView(centre), 1);
-  column->addWidget(time_ = new TimeBar(centre));
+  column->addWidget(centre_, 1);
   setCentralWidget(centre);
-  picture_->setHint(hintTitle, hintText);
 
+  connect(tabBar_, &QTabBar::currentChanged, this, [this](int index) {
+    if (index >= 0 && index < tabs()) enter(documents_[static_cast<std::size_t>(index)].get());
+  });
+  connect(tabBar_, &QTabBar::tabCloseRequested, this, &MainWindow::closeTab);
+  connect(start_, &StartPage::sampleChosen, this, &MainWindow::open);
+  connect(start_, &StartPage::recentChosen, this, &MainWindow::open);
+  connect(start_, &StartPage::openWanted, this, &MainWindow::chooseFile);
   connect(picture_, &PictureView::cameraMoved, this, [this](const vis::Camera& camera, bool interactive) {
-    view_.camera = camera;
+    now_->view.camera = camera;
+    if (!interactive) keepView("move the camera");
     requestPicture(interactive);
   });
   connect(picture_, &PictureView::resized, this, [this] { requestPicture(); });
   connect(picture_, &PictureView::clicked, this, [this](QPoint pixel) { drawing_->pick(pixel); });
   connect(picture_, &PictureView::fitWanted, this, [this] { usePreset("fit"); });
   connect(time_, &TimeBar::chosenChanged, this, [this] {
-    pairsOutdated_ = true;
+    outdated_ = true;
     requestPicture();
   });
 }
@@ -97,259 +122,104 @@ QDockWidget* MainWindow::addDock(const QString& id, const QString& title, QWidge
 }
 
 void MainWindow::buildDocks() {
-  viewPanel_ = new ViewPanel;
-  viewPanel_->setView(view_);
-  addDock("view", "View", viewPanel_, Qt::LeftDockWidgetArea);
+  auto* view = addDock("view", "View", viewPanel_ = new ViewPanel, Qt::LeftDockWidgetArea);
+  auto* run = addDock("run", "Run", run_ = new RunPanel, Qt::LeftDockWidgetArea);
   auto* scene = addDock("scene", "Scene", scene_ = new ScenePanel, Qt::LeftDockWidgetArea);
+  auto* accuracy = addDock("accuracy", "Speed", accuracy_ = new AccuracyPanel, Qt::LeftDockWidgetArea);
   auto* log = addDock("log", "Log", log_ = new LogPanel, Qt::LeftDockWidgetArea);
+  tabifyDockWidget(view, run);
+  tabifyDockWidget(scene, accuracy);
   tabifyDockWidget(scene, log);
+  view->raise();
   scene->raise();
-  connect(viewPanel_, &ViewPanel::changed, this, [this] {
-    viewPanel_->apply(view_);
-    scanRunRange();
-    requestPicture();
-  });
+}
 
-  const auto chart = [&](const char* id, const QString& title, const QString& hint) {
+void MainWindow::buildCharts() {
+  const auto chart = [&](const QString& id, const QString& title, const QString& hint) {
     auto* panel = charts_[id] = new ChartPanel(id, hint);
-    addDock(id, title, panel, Qt::RightDockWidgetArea);
+    panel->setProperty("hint", hint);
+    return addDock(id, title, panel, Qt::RightDockWidgetArea);
+  };
+  chart("energies", "Energies", "Energies of the grains, once a scene with an energies probe runs.");
+  auto* flow = chart("flow", "Flow rate", "Mass flow, once a scene with a flow_rate probe runs.");
+  inspector_ = new InspectorPanel;
+  charts_["history"] = inspector_->history();
+  auto* inspector = addDock("inspector", "Grain", inspector_, Qt::RightDockWidgetArea);
+  tabifyDockWidget(flow, inspector);
+  flow->raise();
+  QDockWidget* first = nullptr;
+  for (const auto& analysis : frameAnalyses()) {
+    auto* dock = chart(analysis.id, analysis.title, QString("%1.").arg(analysis.tip));
+    if (first)
+      tabifyDockWidget(first, dock);
+    else
+      first = dock;
+    dock->setVisible(analysis.shown);
+    commands_->action(QString("panel.") + analysis.id)->setChecked(analysis.shown);
+    connect(dock, &QDockWidget::visibilityChanged, this, [this](bool visible) {
+      if (visible) requestAnalyses(true);
+    });
+  }
+  if (first) first->raise();
+  for (const auto& [id, panel] : charts_) {
     connect(panel, &ChartPanel::wanted, this,
             [this](const QString& name, const analysis::Curve& curve, QSize pixels) {
               drawing_->drawChart(name, curve, pixels);
             });
-  };
-  chart("energies", "Energies", "Energies of the grains, once a scene with an energies probe runs.");
-  chart("flow", "Flow rate", "Mass flow, once a scene with a flow_rate probe runs.");
-  chart("gr", "Pair correlation g(r)", "g(r) of the frame that is shown.");
-  resizeDocks({docks_["view"], docks_["energies"]}, {300, 400}, Qt::Horizontal);
-  resizeDocks({docks_["view"], docks_["scene"]}, {410, 380}, Qt::Vertical);
+    connect(panel, &ChartPanel::exportWanted, this, &MainWindow::exportCurve);
+    if (id != "history") connect(panel, &ChartPanel::quantityChosen, this, [this] { requestAnalyses(true); });
+  }
+}
+
+void MainWindow::connectPanels() {
+  connect(viewPanel_, &ViewPanel::changed, this, [this] {
+    viewPanel_->apply(now_->view);
+    keepView("change the view");
+    scanRunRange();
+    requestPicture();
+  });
+  connect(scene_, &ScenePanel::edited, this, &MainWindow::onSceneEdited);
+  connect(scene_, &ScenePanel::checked, this, &MainWindow::onChecked);
+  connect(run_, &RunPanel::changeWanted, this, &MainWindow::changeRun);
+  connect(run_, &RunPanel::branchWanted, this, &MainWindow::branch);
+  connect(run_, &RunPanel::speedLimitChosen, this, [this](double ratio) { session_->limitSpeed(ratio); });
+  connect(docks_["inspector"], &QDockWidget::visibilityChanged, this, [this](bool visible) {
+    if (visible && now_) inspector_->show(now_->grain, now_->shown, session_->current().store);
+  });
 }
 
 void MainWindow::connectDrawing() {
   connect(drawing_.get(), &DrawingThread::pictureReady, this, &MainWindow::onPicture);
   connect(drawing_.get(), &DrawingThread::chartReady, this,
-          [this](const QString& panel, const QImage& image) { charts_.at(panel)->setImage(image); });
+          [this](const QString& panel, const QImage& image, const vis::ChartPlace& place) {
+            charts_.at(panel)->setImage(image, place);
+          });
   connect(drawing_.get(), &DrawingThread::picked, this, &MainWindow::onPicked);
   connect(drawing_.get(), &DrawingThread::failed, this,
           [this](const QString& sentence) { complain({sentence}); });
   connect(drawing_.get(), &DrawingThread::started, this,
           [this](const QString& backend) { say(LogLevel::info, "Pictures by " + backend + "."); });
   connect(drawing_.get(), &DrawingThread::saved, this, [this](const QString& file, const QString& fault) {
-    if (fault.isEmpty())
+    if (fault.isEmpty()) {
       say(LogLevel::info, "The picture is saved in " + file + ".");
-    else
+      statusBar()->showMessage("Saved " + file);
+    } else {
       complain({fault});
+    }
     requestPicture(); // picking looks at the picture drawn last
     Q_EMIT pictureSaved(file, fault);
   });
-  connect(pairs_.get(), &PairCorrelationWorker::ready, this, [this] {
-    const auto outcome = pairs_->take();
-    if (!outcome) return;
-    if (outcome->curve)
-      charts_.at("gr")->setCurve(*outcome->curve);
-    else
-      charts_.at("gr")->clear(outcome->fault);
-  });
-}
-
-void MainWindow::connectSession() {
-  connect(session_.get(), &Session::opened, this, &MainWindow::onOpened);
-  connect(session_.get(), &Session::openFailed, this, &MainWindow::complain);
-  connect(session_.get(), &Session::stateChanged, this, &MainWindow::onState);
-  connect(session_.get(), &Session::frameArrived, this, &MainWindow::onFrame);
-  connect(session_.get(), &Session::progressArrived, this, &MainWindow::onState);
-  connect(session_.get(), &Session::samplesArrived, this, [this] { curvesOutdated_ = true; });
-  connect(session_.get(), &Session::logged, this,
-          [this](int level, const QString& text) { say(static_cast<LogLevel>(level), text); });
-  connect(session_.get(), &Session::runEnded, this, &MainWindow::onRunEnded);
-}
-
-void MainWindow::open(const QString& path) {
-  statusBar()->showMessage("Opening " + path + " ...");
-  session_->open(path);
-}
-
-void MainWindow::onOpened() {
-  const Opened& current = session_->current();
-  statusBar()->clearMessage();
-  banner_->setSentences({});
-  const QString name = QString::fromStdString(current.path.string());
-  const QString title = current.scene ? QString::fromStdString(current.scene->title) : QString();
-  setWindowTitle((title.isEmpty() ? name : title) + " - Sandglass");
-  say(LogLevel::info, "Opened " + name + ".");
-  scene_->setScene(current.sceneText, current.resolved);
-  shown_.reset();
-  range_ = {};
-  view_.camera.preset = "fit";
-  if (current.view) {
-    view_ = *current.view;
-    viewPanel_->setView(view_);
-  }
-  picture_->clear();
-  picture_->setHint(title.isEmpty() ? name : title, "Press F5 or Space to run this scene.");
-  for (auto& [id, panel] : charts_)
-    panel->clear(id == "gr" ? "g(r) of the frame that is shown." : "");
-  time_->setFrames(current.store->size(), false);
-  time_->choose(std::nullopt);
-  if (current.time && current.store->size() > 0) time_->choose(current.store->nearest(*current.time));
-  time_->setTime("");
-  pairsOutdated_ = curvesOutdated_ = true;
-  refreshCurves();
-  scanRunRange();
-  requestPicture();
-}
-
-void MainWindow::onFrame() {
-  const FramePtr frame = session_->liveFrame();
-  widenRunRange(*frame);
-  if (!time_->chosen()) requestPicture();
-}
-
-void MainWindow::onState() {
-  const bool runs = session_->runs(), paused = session_->isPaused();
-  const bool open = session_->isOpen();
-  drawing_->setSimulationRuns(runs && !paused);
-  if (open) time_->setFrames(session_->current().store->size(), runs);
-  auto* start = commands_->action("run.start");
-  start->setEnabled(runs || session_->canStart());
-  start->setText(runs && !paused ? "&Pause" : paused ? "&Go on" : "&Run");
-  setRunIcon(runs && !paused);
-  for (const char* id : {"run.step", "run.steps"})
-    commands_->action(id)->setEnabled(runs || session_->canStart());
-  commands_->action("run.stop")->setEnabled(runs);
-  for (const char* id : {"time.back", "time.forward", "time.first", "time.last"})
-    commands_->action(id)->setEnabled(open && session_->current().store->size() > 0);
-  commands_->action("file.savePicture")->setEnabled(shown_ != nullptr);
-  if (runs && !paused && !curveTimer_.isActive()) curveTimer_.start();
-  if (!runs) curveTimer_.stop();
-
-  QString state;
-  const auto& progress = session_->progress();
-  if (progress && (runs || paused)) {
-    state = QString("%1: %2 %")
-                .arg(QString::fromStdString(progress->stage))
-                .arg(100 * progress->fraction, 0, 'f', 1);
-    if (paused)
-      state += ", paused";
-    else if (progress->secondsLeft >= 0)
-      state += ", " + durationText(progress->secondsLeft) + " left";
-    statusBar()->showMessage(QString("%L1 grains    step %L2    %3 million grain-steps a second")
-                                 .arg(progress->grains)
-                                 .arg(static_cast<qlonglong>(progress->step))
-                                 .arg(progress->grainStepsPerSecond / 1e6, 0, 'f', 2));
-  } else if (runs) {
-    state = "starting";
-  } else if (progress && progress->fraction >= 1) {
-    state = "complete";
-  } else if (open && session_->current().canResume) {
-    state = "saved run";
-  }
-  time_->setProgress(progress, state);
-}
-
-void MainWindow::onRunEnded(bool complete, const QString& fault) {
-  if (!fault.isEmpty())
-    complain(fault.split('\n'));
-  else
-    say(LogLevel::info, complete ? "The run is complete." : "The run is stopped; Run goes on from here.");
-  curvesOutdated_ = true;
-  refreshCurves();
-  pairsOutdated_ = true;
-  requestPicture();
-}
-
-void MainWindow::requestPicture(bool interactive) {
-  if (!session_->isOpen()) return;
-  const auto& store = session_->current().store;
-  PictureOrder order;
-  order.interactive = interactive;
-  if (const auto index = time_->chosen()) {
-    if (store->size() == 0) return;
-    order.index = std::min(*index, store->size() - 1);
-    order.source = store;
-  } else if (!(order.frame = session_->liveFrame())) {
-    return;
-  }
-  if (range_.known && view_.colouring.range == vis::ColourRange::run) {
-    view_.colouring.low = range_.limits[0];
-    view_.colouring.high = range_.limits[1];
-  }
-  const QSize pixels = picture_->pixels();
-  view_.width = pixels.width();
-  view_.height = pixels.height();
-  order.view = view_;
-  if (interactive) order.view.maximumGrains = grainsWhileMoving;
-  order.number = ++ordered_;
-  drawing_->draw(std::move(order));
-}
-
-void MainWindow::onPicture() {
-  auto picture = drawing_->takePicture();
-  if (!picture) return;
-  const bool other = picture->frame != shown_;
-  shown_ = picture->frame;
-  drawn_ = picture->number;
-  picture_->show(std::move(*picture));
-  if (!other) return;
-  viewPanel_->setFrame(*shown_);
-  time_->setTime(QString("t = %1 s    %L2 grains").arg(shown_->time, 0, 'f', 4).arg(shown_->size()));
-  commands_->action("file.savePicture")->setEnabled(true);
-  requestPairCorrelation(std::exchange(pairsOutdated_, false));
-}
-
-void MainWindow::requestPairCorrelation(bool restart) {
-  const auto* panel = charts_.at("gr");
-  if (!panel->isVisible() || !shown_ || shown_->size() < 2) return;
-  const auto& scene = session_->current().scene;
-  const bool beside = session_->runs() && !session_->isPaused();
-  pairs_->compute(shown_, scene ? Vec3(-scene->gravity) : Vec3::Zero(), restart, beside);
-}
-
-void MainWindow::refreshCurves() {
-  if (!std::exchange(curvesOutdated_, false) || !session_->isOpen()) return;
-  const Opened& current = session_->current();
-  if (!current.scene) return;
-  if (auto curve = current.series.energies(*current.scene))
-    charts_.at("energies")->setCurve(std::move(*curve));
-  else
-    charts_.at("energies")->clear("No samples of an energies probe.");
-  if (auto curve = current.series.flowRate(*current.scene))
-    charts_.at("flow")->setCurve(std::move(*curve));
-  else
-    charts_.at("flow")->clear("No samples of a flow_rate probe.");
-}
-
-bool MainWindow::isSettled() const {
-  return !session_->isOpening() && drawn_ == ordered_ &&
-         std::all_of(charts_.begin(), charts_.end(), [](const auto& c) { return c.second->isCurrent(); }) &&
-         pairs_->isIdle();
-}
-
-void MainWindow::say(LogLevel level, const QString& text) {
-  log_->add(static_cast<int>(level), text);
-}
-
-void MainWindow::complain(const QStringList& sentences) {
-  statusBar()->clearMessage();
-  for (const auto& sentence : sentences)
-    say(LogLevel::error, sentence);
-  banner_->setSentences(sentences);
-}
-
-QString MainWindow::bannerText() const {
-  return banner_->isVisible() ? banner_->text() : QString();
+  connect(analyses_.get(), &AnalysisWorker::ready, this, &MainWindow::takeAnalyses);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (session_->runs() && !options_.asksNothing) {
-    const auto answer = QMessageBox::question(
-        this, "Sandglass",
-        "The simulation is running. Stop it and close? A checkpoint is kept; Run goes on from it later.",
-        QMessageBox::Close | QMessageBox::Cancel, QMessageBox::Cancel);
-    if (answer != QMessageBox::Close) return event->ignore();
-  }
+  if (!mayStop(
+          "A simulation is running. Stop it and close? A checkpoint is kept; Run goes on from it later."))
+    return event->ignore();
+  writeSettings();
   hide();
-  session_->stopAndWait();
+  for (const auto& document : documents_)
+    document->session->stopAndWait();
   event->accept();
 }
 
@@ -358,8 +228,8 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  const auto urls = event->mimeData()->urls();
-  if (!urls.isEmpty() && urls.first().isLocalFile()) open(urls.first().toLocalFile());
+  for (const auto& url : event->mimeData()->urls())
+    if (url.isLocalFile()) open(url.toLocalFile());
 }
 
 } // namespace sandglass::desktop

@@ -1,34 +1,46 @@
 #pragma once
-// The window: puts panels, session, drawing thread and g(r) worker together. Handles events and shows
-// finished images; draws, computes and reads nothing itself.
+// The window: puts panels, tabs, drawing thread and workers together. Handles events and shows finished
+// images; draws, computes and reads nothing itself.
 
+#include "app/desktop/analysis_worker.h"
 #include "app/desktop/command_table.h"
+#include "app/desktop/document.h"
 #include "app/desktop/drawing_thread.h"
-#include "app/desktop/pair_correlation_worker.h"
-#include "app/desktop/session.h"
+#include "app/desktop/scene_checker.h"
 #include "app/desktop/time_bar.h"
 
 #include <QDockWidget>
+#include <QElapsedTimer>
 #include <QMainWindow>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QTabBar>
 #include <QTimer>
+#include <QUndoGroup>
 
 #include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace sandglass::desktop {
 
+class AccuracyPanel;
 class Banner;
 class ChartPanel;
+class InspectorPanel;
 class LogPanel;
 class PictureView;
+class RunPanel;
 class ScenePanel;
+class StartPage;
 class ViewPanel;
 
 struct WindowOptions {
   SessionOptions session;
   vis::GlBackend backend = vis::GlBackend::automatic;
   bool asksNothing = false; ///< for tests and scripts: no question when closing
+  QString settingsFile;     ///< where settings are kept; empty: nowhere
 };
 
 class MainWindow : public QMainWindow {
@@ -37,18 +49,27 @@ public:
   explicit MainWindow(const WindowOptions& options);
   ~MainWindow() override;
 
+  /// A scene, run, file of frames, picture or session file; beside what runs in this tab, in another one.
   void open(const QString& path);
   void showTime(double seconds); ///< the saved frame nearest to it
   void showView(const vis::View& view);
   void savePicture(const QString& file); ///< of what is shown, in the size in which it is shown
-  /// Whether nothing is being opened, and picture, charts and g(r) are up to date.
+  void saveScene(const QString& file);   ///< the text as it is now
+  void saveSession(const QString& file);
+  void branch(); ///< a new run in a new tab from the frame shown
+  void newTab();
+  void closeTab(int index);
+  void showTab(int index);
+  int tabs() const { return static_cast<int>(documents_.size()); }
+  /// Whether nothing is being opened, and picture, charts, analyses and scene are up to date.
   bool isSettled() const;
 
   Session& session() { return *session_; }
-  const vis::View& view() const { return view_; }
+  const vis::View& view() const { return now_->view; }
   const CommandTable& commands() const { return *commands_; }
-  FramePtr shownFrame() const { return shown_; }
+  FramePtr shownFrame() const { return now_->shown; }
   QString bannerText() const;
+  QDockWidget* dock(const QString& id) const { return docks_.at(id); }
 
 Q_SIGNALS:
   void pictureSaved(const QString& file, const QString& fault);
@@ -61,35 +82,71 @@ protected:
 private:
   std::vector<Command> commandRows();
   std::vector<Command> fileRows();
+  std::vector<Command> editRows();
   std::vector<Command> runRows();
+  std::vector<Command> timeRows();
   std::vector<Command> viewRows();
   std::vector<Command> panelRows();
+  std::vector<Command> windowRows();
   std::vector<Command> helpRows();
   void buildCentre();
   void buildDocks();
+  void buildCharts();
+  void connectPanels();
   void connectDrawing();
-  void connectSession();
+  void connectSession(Document* document);
   QDockWidget* addDock(const QString& id, const QString& title, QWidget* content, Qt::DockWidgetArea area);
 
-  void onOpened();
+  // Tabs and what happens in them (window_documents.cpp).
+  Document* addDocument();
+  void enter(Document* document);
+  void nameTab(const Document& document);
+  void onOpened(Document* document);
+  void showDocument();
   void onFrame();
   void onState();
   void onRunEnded(bool complete, const QString& fault);
+  void onChecked(const SceneChecker::Outcome& outcome);
+  void onSceneEdited(const QString& before, const QString& after, const QString& what);
+  void showState();
+
+  // Pictures and curves (window_pictures.cpp).
+  void requestPicture(bool interactive = false);
   void onPicture();
   void onPicked(qint64 grain);
+  void refreshPanels(bool restart);
+  void requestAnalyses(bool restart);
+  void takeAnalyses();
+  void refreshCurves();
+  void keepView(const QString& what); ///< the view has changed: undo can take it back
+  void applyView(const vis::View& view);
+  void exportCurve(const analysis::Curve& curve, const QString& suffix);
+  QString curveName() const;
+
+  // What commands do (window_actions.cpp).
   void say(LogLevel level, const QString& text);
   void complain(const QStringList& sentences);
-
-  void requestPicture(bool interactive = false);
-  void requestPairCorrelation(bool restart);
-  void refreshCurves();
   void usePreset(const std::string& preset);
   void chooseFile();
   void chooseFolder();
   void choosePictureFile();
+  void chooseSceneFile();
+  void chooseSessionFile();
   void showCheatSheet();
   void startOrPause();
+  void step(int steps);
+  bool sceneIsReady();
+  void changeRun(const EventSpec& event);
   void setRunIcon(bool running);
+  bool mayStop(const QString& question);
+
+  // Settings and session files (window_state.cpp).
+  void readSettings();
+  void writeSettings();
+  void remember(const QString& path);
+  void openSession(const QString& file);
+  void setDark(bool on);
+  void setTextScale(double factor);
 
   /// The colour range over the whole run: scanned in a worker, then widened by each frame that comes.
   struct RunRange {
@@ -102,27 +159,41 @@ private:
   void widenRunRange(const Frame& frame);
 
   WindowOptions options_;
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<QSettings> settings_;
+  std::vector<std::unique_ptr<Document>> documents_;
+  Document* now_ = nullptr;    ///< the tab that is shown
+  Session* session_ = nullptr; ///< its session
   std::unique_ptr<DrawingThread> drawing_;
-  std::unique_ptr<PairCorrelationWorker> pairs_;
+  std::unique_ptr<AnalysisWorker> analyses_;
   std::unique_ptr<CommandTable> commands_;
+  QUndoGroup undo_;
   QThreadPool pool_;
 
   Banner* banner_ = nullptr;
+  QTabBar* tabBar_ = nullptr;
+  QStackedWidget* centre_ = nullptr;
+  StartPage* start_ = nullptr;
   PictureView* picture_ = nullptr;
   TimeBar* time_ = nullptr;
   ViewPanel* viewPanel_ = nullptr;
+  RunPanel* run_ = nullptr;
   ScenePanel* scene_ = nullptr;
   LogPanel* log_ = nullptr;
+  AccuracyPanel* accuracy_ = nullptr;
+  InspectorPanel* inspector_ = nullptr;
   std::map<QString, ChartPanel*> charts_;
   std::map<QString, QDockWidget*> docks_;
 
-  vis::View view_;
-  FramePtr shown_;
   RunRange range_;
   quint64 ordered_ = 0, drawn_ = 0; ///< numbers of pictures
   bool showsPause_ = false;         ///< on the button that starts and pauses
-  bool pairsOutdated_ = false, curvesOutdated_ = false;
+  bool outdated_ = false, curvesOutdated_ = false;
+  bool startWhenChecked_ = false;
+  QStringList recent_;
+  bool dark_ = false;
+  double textScale_ = 1;
+  int picturesSince_ = 0;
+  QElapsedTimer sincePictures_;
   QTimer curveTimer_;
 };
 

@@ -61,6 +61,11 @@ Opened openPicture(const fs::path& file) {
         fmt::format("{}: this picture does not name the run that it shows; only pictures saved by "
                     "this program do",
                     file.string()));
+  if (!fs::exists(text["source"]))
+    throw InputError(
+        fmt::format("{}: the picture shows {}, which is not there any more; put it back or open it where "
+                    "it is now",
+                    file.string(), text["source"]));
   Opened opened = openAny(text["source"]);
   if (text.contains("view")) {
     opened.view = vis::parseView(text["view"], file.string() + " (view inside)");

@@ -1,5 +1,7 @@
 #include "app/desktop/picture_view.h"
 
+#include "app/desktop/style.h"
+
 #include <QApplication>
 #include <QMouseEvent>
 #include <QPainter>
@@ -62,19 +64,19 @@ void PictureView::paintEvent(QPaintEvent*) {
 }
 
 void PictureView::paintHint(QPainter& painter) {
-  painter.fillRect(rect(), QColor(250, 250, 248));
+  painter.fillRect(rect(), ink().paper);
   QFont font = this->font();
   const double points = font.pointSizeF();
   font.setPointSizeF(points * 1.9);
   font.setWeight(QFont::DemiBold);
   painter.setFont(font);
-  painter.setPen(QColor(52, 58, 64));
+  painter.setPen(ink().text);
   const QRect upper(0, 0, width(), height() / 2 - 12);
   painter.drawText(upper.adjusted(24, 0, -24, 0), Qt::AlignHCenter | Qt::AlignBottom, hintTitle_);
   font.setPointSizeF(points * 1.15);
   font.setWeight(QFont::Normal);
   painter.setFont(font);
-  painter.setPen(QColor(105, 112, 120));
+  painter.setPen(ink().text);
   const QRect lower(0, height() / 2 + 8, width(), height() / 2 - 8);
   painter.drawText(lower.adjusted(24, 0, -24, 0), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap,
                    hintText_);

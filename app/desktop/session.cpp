@@ -1,7 +1,9 @@
 #include "app/desktop/session.h"
 
 #include "sim/base/error.h"
+#include "sim/run/branch.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace sandglass::desktop {
@@ -15,12 +17,34 @@ Session::~Session() {
 }
 
 void Session::open(const QString& path) {
+  openBy([path] { return openAny(path.toStdString()); });
+}
+
+void Session::openBranch(const std::filesystem::path& source, std::int64_t step) {
+  const auto runs = options_.runsFolder;
+  auto branched = std::make_shared<std::int64_t>(-1);
+  openBy([=] {
+    const auto folder = newRunFolder(source.has_parent_path() ? source.parent_path() : runs,
+                                     source / (source.filename().string() + "-branch.toml"));
+    *branched = branchRun(source, step, folder).step;
+    return openAny(folder);
+  });
+  const auto once = std::make_shared<QMetaObject::Connection>();
+  *once = connect(this, &Session::opened, this, [this, once, branched] {
+    disconnect(*once);
+    if (*branched < 0) return;
+    pauseAt_ = *branched;
+    start();
+  });
+}
+
+void Session::openBy(const std::function<Opened()>& read) {
   const quint64 order = ++opening_;
-  pool_.start([this, order, path] {
+  pool_.start([this, order, read] {
     QStringList faults;
     auto result = std::make_shared<Opened>();
     try {
-      *result = openAny(path.toStdString());
+      *result = read();
     } catch (const InputError& e) {
       for (const auto& sentence : e.sentences())
         faults << QString::fromStdString(sentence);
@@ -52,6 +76,8 @@ void Session::start(bool paused) {
   options.threads = options_.threads;
   options.paused = paused;
   options.resume = current_.canResume;
+  options.speedLimit = speedLimit_;
+  options.pauseAt = std::exchange(pauseAt_, -1);
   if (current_.runFolder.empty()) {
     current_.runFolder =
         options_.folder.empty() ? newRunFolder(options_.runsFolder, current_.path) : options_.folder;
@@ -89,6 +115,39 @@ void Session::stop() {
   if (runs()) simulation_->stop();
 }
 
+void Session::limitSpeed(double ratio) {
+  speedLimit_ = ratio;
+  if (runs()) simulation_->limitSpeed(ratio);
+}
+
+QString Session::change(const EventSpec& event) {
+  if (!runs()) return "Nothing runs that could be changed; run the scene, or branch from a frame.";
+  try {
+    simulation_->change(event);
+    return {};
+  } catch (const Error& e) {
+    return QString::fromUtf8(e.what());
+  }
+}
+
+void Session::setScene(Scene scene, const QString& text, const QString& resolved) {
+  if (runs()) return;
+  const bool same = current_.scene && sceneHash(*current_.scene) == sceneHash(scene);
+  current_.scene = std::move(scene);
+  current_.sceneText = text;
+  current_.resolved = resolved;
+  if (same) return;
+  current_.runFolder.clear();
+  current_.canResume = false;
+  if (current_.store->size() > 0) {
+    current_.store = std::make_shared<FrameStore>(current_.path);
+    current_.series.clear();
+    live_.reset();
+    progress_.reset();
+  }
+  Q_EMIT stateChanged();
+}
+
 void Session::stopAndWait() {
   running_ = false;
   simulation_.reset();
@@ -116,6 +175,16 @@ void Session::fetch() {
   for (const auto& sample : samples)
     current_.series.add(sample);
   if (!samples.empty()) Q_EMIT samplesArrived();
+  const auto changes = simulation_->takeChanges();
+  auto& events = current_.scene->events;
+  for (const auto& event : changes) // as Run does
+    events.insert(std::upper_bound(events.begin(), events.end(), event.step,
+                                   [](std::int64_t step, const EventSpec& e) { return step < e.step; }),
+                  event);
+  if (!changes.empty()) {
+    current_.resolved = QString::fromStdString(writeScene(*current_.scene));
+    Q_EMIT sceneChanged();
+  }
   if (const auto progress = simulation_->takeProgress()) {
     progress_ = *progress;
     Q_EMIT progressArrived();

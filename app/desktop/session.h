@@ -10,6 +10,7 @@
 #include <QThreadPool>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -40,6 +41,15 @@ public:
   void pause(bool on);
   void step(int steps); ///< starts paused when nothing runs
   void stop();
+  void limitSpeed(double ratio); ///< simulated over wall time; 0: as fast as can be
+  double speedLimit() const { return speedLimit_; }
+  /// Changes the running simulation before its next step; the event is added to the scene. A sentence when it
+  /// cannot be, else nothing.
+  QString change(const EventSpec& event);
+  /// Another scene in place of the one that is open: Run starts a new run. Not while one goes on.
+  void setScene(Scene scene, const QString& text, const QString& resolved);
+  /// A new run that shares the past of the one in `source` up to `step`, opened here and paused there.
+  void openBranch(const std::filesystem::path& source, std::int64_t step);
   void stopAndWait();                          ///< the checkpoint is written afterwards
   FramePtr liveFrame() const { return live_; } ///< newest of the simulation; null when none runs
   const std::optional<Progress>& progress() const { return progress_; }
@@ -51,10 +61,12 @@ Q_SIGNALS:
   void frameArrived(); ///< liveFrame() is a new one
   void progressArrived();
   void samplesArrived();
+  void sceneChanged(); ///< by a change of the running simulation
   void logged(int level, const QString& text);
   void runEnded(bool complete, const QString& fault);
 
 private:
+  void openBy(const std::function<Opened()>& read);
   void fetch();
   void ended(bool complete, const QString& fault);
   void retire();
@@ -67,6 +79,8 @@ private:
   std::optional<Progress> progress_;
   quint64 opening_ = 0, opened_ = 0; ///< the newest order wins
   bool resuming_ = false, running_ = false;
+  double speedLimit_ = 0;
+  std::int64_t pauseAt_ = -1; ///< of the next start
   QThreadPool pool_;
 };
 

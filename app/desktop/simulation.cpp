@@ -19,6 +19,8 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options, std::share
   run.threads = options.threads;
   run.resume = options.resume;
   run.liveInterval = liveInterval;
+  run.pauseAt = options.pauseAt;
+  pauseAt_ = options.pauseAt;
   run_ = std::make_unique<Run>(std::move(scene), run, [this](LogLevel level, const std::string& text) {
     {
       const std::lock_guard lock(mutex_);
@@ -28,6 +30,8 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options, std::share
   });
   run_->onLiveFrame = [this](FramePtr frame) {
     if (std::exchange(resume_, false)) store_->restartFrom(frame->time);
+    if (frame->step == pauseAt_) isPaused_ = true; // the run does this by itself
+    if (frame->step >= pauseAt_) pauseAt_ = -1;
     frame_.put(std::move(frame));
     notify();
   };
@@ -43,6 +47,14 @@ Simulation::Simulation(Scene scene, const SimulationOptions& options, std::share
     progress_.put(progress);
     notify();
   };
+  run_->onChanged = [this](const EventSpec& event) {
+    {
+      const std::lock_guard lock(mutex_);
+      changes_.push_back(event);
+    }
+    notify();
+  };
+  run_->limitSpeed(options.speedLimit);
   run_->pause(options.paused);
   thread_ = std::thread([this] { work(); });
 }
@@ -87,6 +99,11 @@ std::vector<ProbeSample> Simulation::takeSamples() {
   told_ = false;
   const std::lock_guard lock(mutex_);
   return std::exchange(samples_, {});
+}
+
+std::vector<EventSpec> Simulation::takeChanges() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(changes_, {});
 }
 
 std::vector<std::pair<LogLevel, std::string>> Simulation::takeMessages() {

@@ -24,6 +24,8 @@ struct SimulationOptions {
   bool resume = false;          ///< go on from the newest checkpoint in the folder
   bool paused = false;          ///< begin paused
   int threads = 0;              ///< 0: all cores
+  std::int64_t pauseAt = -1;    ///< step at which it pauses by itself
+  double speedLimit = 0;        ///< see Run::limitSpeed
 };
 
 class Simulation : public QObject {
@@ -37,11 +39,15 @@ public:
   bool isPaused() const { return isPaused_; }
   void step(int steps);
   void stop(); ///< does not wait; finished() follows
+  void limitSpeed(double ratio) { run_->limitSpeed(ratio); }
+  /// Before the next step; throws InputError for what cannot be.
+  void change(const EventSpec& event) { run_->change(event); }
 
   // What came since the last call.
   std::optional<FramePtr> takeFrame() { return frame_.take(); }
   std::optional<Progress> takeProgress() { return progress_.take(); }
   std::vector<ProbeSample> takeSamples();
+  std::vector<EventSpec> takeChanges(); ///< that have got their step
   std::vector<std::pair<LogLevel, std::string>> takeMessages();
 
   bool isFinished() const { return isFinished_; }
@@ -57,10 +63,12 @@ private:
   std::shared_ptr<FrameStore> store_;
   std::unique_ptr<Run> run_;
   bool resume_;
+  std::int64_t pauseAt_ = -1;
   OneSlot<FramePtr> frame_;
   OneSlot<Progress> progress_;
   std::mutex mutex_;
   std::vector<ProbeSample> samples_;
+  std::vector<EventSpec> changes_;
   std::vector<std::pair<LogLevel, std::string>> messages_;
   std::atomic<bool> told_{false}, isPaused_{false}, isFinished_{false};
   std::thread thread_;

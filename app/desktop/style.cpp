@@ -13,33 +13,85 @@ namespace sandglass::desktop {
 
 namespace {
 
-const QColor ink(52, 58, 64), faint(173, 178, 184), accent(31, 111, 120), sand(214, 160, 72);
+const QColor accent(31, 111, 120), sand(214, 160, 72);
+
+/// What the sheet's @names stand for.
+struct Colours {
+  QString window, paper, raised, line, hover, pressed, pressedLine, title, accent, fault, faultPaper,
+      faultLine, ink, faint, trough;
+};
+
+const Colours lightColours{"#f3f4f2", "#ffffff", "#ffffff", "#dfe2de", "#eaf2f2",
+                           "#d5e7e8", "#b4d0d2", "#e9ebe8", "#1f6f78", "#b42318",
+                           "#fdecea", "#f3b8b1", "#343a40", "#adb2b8", "#e4e7e4"};
+const Colours darkColours{"#24272b", "#2b2f34", "#2f343a", "#43494f", "#38434a",
+                          "#2f545a", "#4c7f86", "#33383e", "#6bc0c9", "#ffa79e",
+                          "#4a2522", "#7d3b35", "#e3e6e8", "#767d84", "#43494f"};
+
+Ink currentInk{QColor(52, 58, 64), QColor(173, 178, 184), Qt::white, QColor(180, 35, 24),
+               QColor(154, 103, 0)};
 
 const char* const sheet = R"(
-QMainWindow, QDialog { background: #f3f4f2; }
-QMainWindow::separator { background: #e1e3e0; width: 5px; height: 5px; }
-QToolBar { background: #ffffff; border: none; border-bottom: 1px solid #dfe2de; padding: 4px 8px; spacing: 3px; }
+QMainWindow, QDialog { background: @window; }
+QMainWindow::separator { background: @line; width: 5px; height: 5px; }
+QToolBar { background: @raised; border: none; border-bottom: 1px solid @line; padding: 4px 8px; spacing: 3px; }
 QToolBar QToolButton { padding: 5px 9px; border-radius: 5px; border: 1px solid transparent; }
-QToolBar QToolButton:hover { background: #eaf2f2; }
-QToolBar QToolButton:pressed, QToolBar QToolButton:checked { background: #d5e7e8; border-color: #b4d0d2; }
-QMenuBar { background: #ffffff; padding: 2px 6px; }
+QToolBar QToolButton:hover { background: @hover; }
+QToolBar QToolButton:pressed, QToolBar QToolButton:checked { background: @pressed; border-color: @pressedLine; }
+QMenuBar { background: @raised; padding: 2px 6px; }
 QMenuBar::item { padding: 4px 9px; border-radius: 4px; }
-QMenuBar::item:selected { background: #eaf2f2; }
-QStatusBar { background: #ffffff; border-top: 1px solid #dfe2de; }
+QMenuBar::item:selected { background: @hover; }
+QStatusBar { background: @raised; border-top: 1px solid @line; }
 QStatusBar::item { border: none; }
 QDockWidget { font-weight: 600; }
-QDockWidget::title { background: #e9ebe8; padding: 6px 10px; text-align: left; }
-QDockWidget > QWidget { background: #ffffff; }
-QLabel[heading="true"] { font-weight: 600; color: #1f6f78; padding-top: 4px; }
-#banner { background: #fdecea; border: none; border-bottom: 1px solid #f3b8b1; }
-#banner QLabel { color: #8a1c12; }
-#timeBar { background: #ffffff; border-top: 1px solid #dfe2de; }
-QProgressBar { background: #e4e7e4; border: none; border-radius: 3px; }
-QProgressBar::chunk { background: #1f6f78; border-radius: 3px; }
-QToolButton#live { padding: 3px 10px; border: 1px solid #c9cdc9; border-radius: 4px; background: #ffffff; }
+QDockWidget::title { background: @title; padding: 6px 10px; text-align: left; }
+QDockWidget > QWidget { background: @paper; }
+QLabel[heading="true"] { font-weight: 600; color: @accent; padding-top: 4px; }
+QLabel[pageTitle="true"] { font-weight: 600; font-size: 15pt; color: @ink; padding-top: 6px; }
+QLabel[fault="true"] { color: @fault; }
+#startPageContent, #sceneForm { background: @paper; }
+QToolButton[card="true"] { background: @paper; border: 1px solid @line; border-radius: 8px; padding: 8px; }
+QToolButton[card="true"]:hover, QToolButton[card="true"]:focus { border: 2px solid @accent; padding: 7px; }
+QPushButton[link="true"] { color: @accent; border: none; text-align: left; padding: 2px 0; }
+QPushButton[link="true"]:focus, QPushButton[link="true"]:hover { text-decoration: underline; }
+QGroupBox { font-weight: 600; border: 1px solid @line; border-radius: 5px; margin-top: 9px; padding-top: 5px; }
+QGroupBox::title { subcontrol-origin: margin; left: 9px; padding: 0 4px; color: @accent; }
+#chartBar { background: #ffffff; }
+#chartBar QToolButton { color: #343a40; border: none; padding: 2px 5px; border-radius: 4px; }
+#chartBar QToolButton:hover, #chartBar QToolButton:focus { background: #eaf2f2; }
+#chartBar QToolButton:checked { background: #d5e7e8; font-weight: 600; }
+#banner { background: @faultPaper; border: none; border-bottom: 1px solid @faultLine; }
+#banner QLabel { color: @fault; }
+#timeBar { background: @raised; border-top: 1px solid @line; }
+QProgressBar { background: @trough; border: none; border-radius: 3px; }
+QProgressBar::chunk { background: @accent; border-radius: 3px; }
+QToolButton#live { padding: 3px 10px; border: 1px solid @line; border-radius: 4px; background: @paper; }
 QToolButton#live:checked { background: #1f6f78; color: #ffffff; border-color: #1f6f78; }
-QPlainTextEdit { border: none; background: #ffffff; }
+QPlainTextEdit, QTreeWidget { border: none; background: @paper; }
 )";
+
+QString sheetWith(const Colours& c) {
+  QString text = sheet;
+  // Longer names first: one may begin another.
+  const std::pair<const char*, const QString*> names[] = {{"@pressedLine", &c.pressedLine},
+                                                          {"@faultPaper", &c.faultPaper},
+                                                          {"@faultLine", &c.faultLine},
+                                                          {"@pressed", &c.pressed},
+                                                          {"@window", &c.window},
+                                                          {"@raised", &c.raised},
+                                                          {"@accent", &c.accent},
+                                                          {"@trough", &c.trough},
+                                                          {"@paper", &c.paper},
+                                                          {"@hover", &c.hover},
+                                                          {"@title", &c.title},
+                                                          {"@fault", &c.fault},
+                                                          {"@faint", &c.faint},
+                                                          {"@line", &c.line},
+                                                          {"@ink", &c.ink}};
+  for (const auto& [name, value] : names)
+    text.replace(name, *value);
+  return text;
+}
 
 using Draw = std::function<void(QPainter&)>;
 
@@ -100,8 +152,9 @@ void drawApp(QPainter& p) {
   p.drawPolygon(polygon({{12, 15.5}, {17, 20.2}, {7, 20.2}}));
 }
 
-const std::map<QString, Draw>& drawings() {
-  static const std::map<QString, Draw> all{
+std::map<QString, Draw> drawings() {
+  const QColor ink = currentInk.text;
+  return {
       {"open", lines(ink, {polygon({{3, 19}, {3, 5}, {9, 5}, {11, 8}, {19, 8}, {19, 11}}),
                            polygon({{3, 19}, {6.5, 11}, {22, 11}, {18.5, 19}, {3, 19}})})},
       {"run", filled(QColor(38, 132, 86), {polygon({{7, 4.5}, {19, 12}, {7, 19.5}})})},
@@ -115,7 +168,7 @@ const std::map<QString, Draw>& drawings() {
       {"back", lines(ink, {polygon({{15, 5}, {8, 12}, {15, 19}})})},
       {"forward", lines(ink, {polygon({{9, 5}, {16, 12}, {9, 19}})})},
       {"help",
-       [](QPainter& p) {
+       [ink](QPainter& p) {
          QFont font = p.font();
          font.setPixelSize(17);
          font.setBold(true);
@@ -125,7 +178,6 @@ const std::map<QString, Draw>& drawings() {
        }},
       {"app", drawApp},
   };
-  return all;
 }
 
 } // namespace
@@ -134,26 +186,34 @@ QIcon icon(const QString& name) {
   return drawn(drawings().at(name));
 }
 
-void setStyle(QApplication& app) {
+const Ink& ink() {
+  return currentInk;
+}
+
+void setStyle(QApplication& app, Theme theme, double textScale) {
+  const bool dark = theme == Theme::dark;
+  const Colours& c = dark ? darkColours : lightColours;
+  currentInk = {c.ink, c.faint, c.paper, c.fault, dark ? QColor(240, 190, 90) : QColor(154, 103, 0)};
   QApplication::setStyle(QStyleFactory::create("Fusion"));
   QPalette palette;
-  palette.setColor(QPalette::Window, QColor(243, 244, 242));
-  palette.setColor(QPalette::Base, Qt::white);
-  palette.setColor(QPalette::AlternateBase, QColor(247, 248, 246));
-  palette.setColor(QPalette::Button, QColor(250, 250, 249));
+  palette.setColor(QPalette::Window, c.window);
+  palette.setColor(QPalette::Base, c.paper);
+  palette.setColor(QPalette::AlternateBase, c.window);
+  palette.setColor(QPalette::Button, dark ? c.raised : QString("#fafaf9"));
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
-    palette.setColor(role, ink);
+    palette.setColor(role, c.ink);
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
-    palette.setColor(QPalette::Disabled, role, faint);
+    palette.setColor(QPalette::Disabled, role, c.faint);
+  palette.setColor(QPalette::PlaceholderText, c.faint);
   palette.setColor(QPalette::Highlight, accent);
   palette.setColor(QPalette::HighlightedText, Qt::white);
-  palette.setColor(QPalette::ToolTipBase, Qt::white);
-  palette.setColor(QPalette::ToolTipText, ink);
+  palette.setColor(QPalette::ToolTipBase, c.paper);
+  palette.setColor(QPalette::ToolTipText, c.ink);
   QApplication::setPalette(palette);
   QFont font = QFontDatabase::systemFont(QFontDatabase::GeneralFont);
-  font.setPointSizeF(9.5);
+  font.setPointSizeF(9.5 * textScale);
   QApplication::setFont(font);
-  app.setStyleSheet(sheet);
+  app.setStyleSheet(sheetWith(c));
   QApplication::setWindowIcon(icon("app"));
 }
 

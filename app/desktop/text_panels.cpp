@@ -1,8 +1,8 @@
 #include "app/desktop/text_panels.h"
 
+#include "app/desktop/style.h"
 #include "sim/base/log.h"
 
-#include <QFont>
 #include <QHBoxLayout>
 #include <QToolButton>
 
@@ -13,31 +13,7 @@ namespace {
 constexpr int longestLog = 5000; ///< lines
 constexpr int longestBanner = 4; ///< sentences; all of them are in the log
 
-QPlainTextEdit* codeView(const QString& hint) {
-  auto* edit = new QPlainTextEdit;
-  edit->setReadOnly(true);
-  QFont font("DejaVu Sans Mono");
-  font.setStyleHint(QFont::Monospace);
-  font.setPointSizeF(8.5);
-  edit->setFont(font);
-  edit->setLineWrapMode(QPlainTextEdit::NoWrap);
-  edit->setPlaceholderText(hint);
-  return edit;
-}
-
 } // namespace
-
-ScenePanel::ScenePanel(QWidget* parent) : QTabWidget(parent) {
-  setObjectName("scene");
-  setDocumentMode(true);
-  addTab(written_ = codeView("No scene is open."), "As written");
-  addTab(resolved_ = codeView("No scene is open."), "In SI units, complete");
-}
-
-void ScenePanel::setScene(const QString& written, const QString& resolved) {
-  written_->setPlainText(written);
-  resolved_->setPlainText(resolved);
-}
 
 LogPanel::LogPanel(QWidget* parent) : QPlainTextEdit(parent) {
   setObjectName("log");
@@ -46,10 +22,11 @@ LogPanel::LogPanel(QWidget* parent) : QPlainTextEdit(parent) {
 }
 
 void LogPanel::add(int level, const QString& text) {
-  const char* colour = level == static_cast<int>(LogLevel::error)     ? "#b42318"
-                       : level == static_cast<int>(LogLevel::warning) ? "#9a6700"
-                                                                      : "#3d444b";
-  appendHtml(QString("<span style='color:%1'>%2</span>").arg(colour, text.toHtmlEscaped()));
+  const bool error = level == static_cast<int>(LogLevel::error);
+  const bool warning = level == static_cast<int>(LogLevel::warning);
+  const QColor colour = error ? ink().error : warning ? ink().warning : ink().text;
+  const QString mark = error ? "error: " : warning ? "warning: " : ""; // nothing by colour alone
+  appendHtml(QString("<span style='color:%1'>%2</span>").arg(colour.name(), (mark + text).toHtmlEscaped()));
 }
 
 Banner::Banner(QWidget* parent) : QFrame(parent), text_(new QLabel(this)) {

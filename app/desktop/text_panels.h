@@ -1,23 +1,11 @@
 #pragma once
-// Panels that show text: the scene (as written, with its numbers in SI units) and the log; and the banner in
-// which errors appear above the picture.
+// The log, and the banner in which errors appear above the picture.
 
 #include <QFrame>
 #include <QLabel>
 #include <QPlainTextEdit>
-#include <QTabWidget>
 
 namespace sandglass::desktop {
-
-class ScenePanel : public QTabWidget {
-  Q_OBJECT
-public:
-  explicit ScenePanel(QWidget* parent = nullptr);
-  void setScene(const QString& written, const QString& resolved);
-
-private:
-  QPlainTextEdit *written_, *resolved_;
-};
 
 class LogPanel : public QPlainTextEdit {
   Q_OBJECT

@@ -8,6 +8,12 @@
 
 namespace sandglass::desktop {
 
+namespace {
+
+constexpr int playInterval = 125; ///< [ms] between frames; those that cannot be drawn in time are passed over
+
+} // namespace
+
 QString durationText(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
   if (whole < 60) return QString("%1 s").arg(whole);
@@ -52,8 +58,18 @@ TimeBar::TimeBar(QWidget* parent) : QWidget(parent) {
     Q_EMIT chosenChanged();
   });
   connect(live_, &QToolButton::clicked, this, [this] { choose(std::nullopt); });
+  play_.setInterval(playInterval);
+  connect(&play_, &QTimer::timeout, this,
+          [this] { slider_->setValue(slider_->value() < slider_->maximum() ? slider_->value() + 1 : 0); });
   setFrames(0, false);
   setProgress(std::nullopt, "");
+}
+
+void TimeBar::play(bool on) {
+  if (on)
+    play_.start();
+  else
+    play_.stop();
 }
 
 void TimeBar::setFrames(std::size_t saved, bool running) {

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QSlider>
+#include <QTimer>
 #include <QToolButton>
 #include <QWidget>
 
@@ -23,6 +24,7 @@ public:
   std::optional<std::size_t> chosen() const;
   void choose(std::optional<std::size_t> index); ///< emits chosenChanged() when that is another one
   void stepBy(int frames);
+  void play(bool on); ///< saved frames one after the other, round and round
   void setTime(const QString& text) { time_->setText(text); }
   void setProgress(const std::optional<Progress>& progress, const QString& state);
 
@@ -34,6 +36,7 @@ private:
   QToolButton* live_;
   QLabel *time_, *state_;
   QProgressBar* bar_;
+  QTimer play_;
   bool followsLive_ = true, running_ = false;
 };
 

@@ -2,32 +2,84 @@
 
 #include "app/desktop/main_window.h"
 #include "app/desktop/picture_view.h"
+#include "app/desktop/scene_panel.h"
 #include "app/desktop/style.h"
-#include "app/desktop/view_panel.h"
+#include "app/desktop/text_panels.h"
 #include "sim/base/error.h"
-#include "vis/survey.h"
+#include "sim/io/atomic_file.h"
 
 #include <QDialog>
 #include <QFileDialog>
 #include <QLabel>
+#include <QMessageBox>
 #include <QScrollArea>
 #include <QStatusBar>
 #include <QVBoxLayout>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
 namespace sandglass::desktop {
 
+void MainWindow::say(LogLevel level, const QString& text) {
+  log_->add(static_cast<int>(level), text);
+}
+
+void MainWindow::complain(const QStringList& sentences) {
+  statusBar()->clearMessage();
+  for (const auto& sentence : sentences)
+    say(LogLevel::error, sentence);
+  banner_->setSentences(sentences);
+}
+
+QString MainWindow::bannerText() const {
+  return banner_->isVisible() ? banner_->text() : QString();
+}
+
+bool MainWindow::mayStop(const QString& question) {
+  const bool running =
+      std::any_of(documents_.begin(), documents_.end(), [](const auto& d) { return d->session->runs(); });
+  if (!running || options_.asksNothing) return true;
+  return QMessageBox::question(this, "Sandglass", question, QMessageBox::Close | QMessageBox::Cancel,
+                               QMessageBox::Cancel) == QMessageBox::Close;
+}
+
+/// Whether what the panel shows is what would run; says why not, or waits for the check.
+bool MainWindow::sceneIsReady() {
+  if (session_->runs() || !session_->current().scene) return true;
+  if (!scene_->isSettled() && scene_->text() != session_->current().sceneText) {
+    startWhenChecked_ = true;
+    return false;
+  }
+  if (scene_->faults().isEmpty()) return true;
+  complain(scene_->faults());
+  docks_.at("scene")->show();
+  docks_.at("scene")->raise();
+  return false;
+}
+
 void MainWindow::startOrPause() {
+  if (!sceneIsReady()) return;
   if (!session_->runs()) {
+    banner_->setSentences({});
     session_->start();
     time_->choose(std::nullopt);
   } else {
     session_->pause(!session_->isPaused());
   }
+}
+
+void MainWindow::step(int steps) {
+  if (!sceneIsReady()) return;
+  const bool fresh = !session_->runs();
+  session_->step(steps);
+  if (fresh) time_->choose(std::nullopt);
+}
+
+void MainWindow::changeRun(const EventSpec& event) {
+  const QString fault = session_->change(event);
+  if (!fault.isEmpty()) complain({fault});
 }
 
 void MainWindow::setRunIcon(bool running) {
@@ -36,7 +88,8 @@ void MainWindow::setRunIcon(bool running) {
 }
 
 void MainWindow::usePreset(const std::string& preset) {
-  view_.camera.preset = preset;
+  now_->view.camera.preset = preset;
+  keepView("look from " + QString::fromStdString(preset));
   requestPicture();
 }
 
@@ -46,15 +99,14 @@ void MainWindow::showTime(double seconds) {
 }
 
 void MainWindow::showView(const vis::View& view) {
-  view_ = view;
-  viewPanel_->setView(view);
-  scanRunRange();
-  requestPicture();
+  now_->kept = view;
+  applyView(view);
 }
 
 void MainWindow::chooseFile() {
   const QString file = QFileDialog::getOpenFileName(
-      this, "Open", {}, "Scenes, frames, pictures (*.toml *.vtkhdf *.png);;All files (*)");
+      this, "Open", {},
+      "Scenes, frames, pictures, sessions (*.toml *.vtkhdf *.png *.sandglass);;All files (*)");
   if (!file.isEmpty()) open(file);
 }
 
@@ -68,11 +120,33 @@ void MainWindow::choosePictureFile() {
   if (!file.isEmpty()) savePicture(file);
 }
 
+void MainWindow::chooseSceneFile() {
+  const QString file = QFileDialog::getSaveFileName(this, "Save scene", "scene.toml", "Scenes (*.toml)");
+  if (!file.isEmpty()) saveScene(file);
+}
+
+void MainWindow::chooseSessionFile() {
+  const QString file =
+      QFileDialog::getSaveFileName(this, "Save session", "work.sandglass", "Sessions (*.sandglass)");
+  if (!file.isEmpty()) saveSession(file);
+}
+
 void MainWindow::savePicture(const QString& file) {
-  if (!shown_) return;
+  if (!now_->shown) return;
   const Opened& current = session_->current();
   const auto source = std::filesystem::absolute(current.runFolder.empty() ? current.path : current.runFolder);
-  drawing_->save({shown_, view_, file.toStdString(), {{"source", source.string()}}});
+  drawing_->save({now_->shown, now_->view, file.toStdString(), {{"source", source.string()}}});
+}
+
+void MainWindow::saveScene(const QString& file) {
+  try {
+    writeAtomically(file.toStdString(), now_->sceneText.toStdString());
+    say(LogLevel::info, "The scene is saved in " + file + ".");
+    statusBar()->showMessage("Saved " + file);
+    remember(file);
+  } catch (const std::exception& e) {
+    complain({QString::fromUtf8(e.what())});
+  }
 }
 
 void MainWindow::showCheatSheet() {
@@ -85,6 +159,8 @@ void MainWindow::showCheatSheet() {
                                                  {"Zoom", "wheel"},
                                                  {"What a grain is and does", "click"},
                                                  {"See everything", "double click"},
+                                                 {"Read a chart", "point at it"},
+                                                 {"Zoom in a chart", "drag, or wheel; double click: all"},
                                                  {"Open", "drop a file or folder"}}));
   text->setMargin(18);
   text->setTextFormat(Qt::RichText);
@@ -96,70 +172,6 @@ void MainWindow::showCheatSheet() {
   column->addWidget(scroll);
   dialog->resize(text->sizeHint() + QSize(24, 8));
   dialog->show();
-}
-
-void MainWindow::onPicked(qint64 grain) {
-  if (!shown_ || grain < 0) return statusBar()->showMessage("No grain there.");
-  const auto at = std::find(shown_->id.begin(), shown_->id.end(), grain);
-  if (at == shown_->id.end()) return;
-  const auto k = static_cast<std::size_t>(at - shown_->id.begin());
-  const Vec3& x = shown_->position[k];
-  QString text = QString("Grain %1    at (%2, %3, %4) m").arg(grain).arg(x.x()).arg(x.y()).arg(x.z());
-  for (const auto& [name, values] : shown_->scalars)
-    text += QString("    %1 %2 %3")
-                .arg(QString::fromStdString(name))
-                .arg(values[k])
-                .arg(QString::fromStdString(unitOf(name)));
-  for (const auto& [name, values] : shown_->vectors)
-    text += QString("    |%1| %2 %3")
-                .arg(QString::fromStdString(name))
-                .arg(values[k].norm())
-                .arg(QString::fromStdString(unitOf(name)));
-  statusBar()->showMessage(text);
-  say(LogLevel::info, text);
-}
-
-void MainWindow::scanRunRange() {
-  const std::string quantity = view_.colouring.quantity;
-  const auto store = session_->isOpen() ? session_->current().store : nullptr;
-  if (view_.colouring.range != vis::ColourRange::run || quantity.empty() || !store) return;
-  if (range_.quantity == quantity && range_.store == store.get()) return;
-  range_ = {quantity, store.get(), {0, 0}, false};
-  pool_.start([this, store, quantity] {
-    QString fault;
-    std::array<double, 2> limits{0, 1};
-    const bool any = store->size() > 0;
-    try {
-      if (any) limits = vis::survey({store.get()}, quantity).run;
-    } catch (const Error& e) {
-      fault = QString::fromUtf8(e.what());
-    }
-    QMetaObject::invokeMethod(this, [this, store, quantity, limits, fault, any] {
-      if (range_.quantity != quantity || range_.store != store.get()) return;
-      if (!fault.isEmpty()) return complain({fault});
-      if (!any) return;
-      range_.limits = range_.known ? std::array{std::min(limits[0], range_.limits[0]),
-                                                std::max(limits[1], range_.limits[1])}
-                                   : limits;
-      range_.known = true;
-      requestPicture();
-    });
-  });
-}
-
-void MainWindow::widenRunRange(const Frame& frame) {
-  if (view_.colouring.range != vis::ColourRange::run || view_.colouring.quantity.empty()) return;
-  scanRunRange(); // a run that has just begun has a store of its own
-  try {
-    for (const double value : grainScalar(frame, view_.colouring.quantity)) {
-      if (!std::isfinite(value)) continue;
-      if (!range_.known) range_.limits = {value, value};
-      range_.known = true;
-      range_.limits = {std::min(range_.limits[0], value), std::max(range_.limits[1], value)};
-    }
-  } catch (const Error&) {
-    // The frame lacks the quantity; drawing it says so.
-  }
 }
 
 } // namespace sandglass::desktop

@@ -2,7 +2,6 @@
 
 #include "app/desktop/main_window.h"
 #include "app/desktop/picture_view.h"
-#include "app/desktop/style.h"
 #include "vis/camera.h"
 
 namespace sandglass::desktop {
@@ -14,6 +13,7 @@ using Keys = QList<QKeySequence>;
 constexpr double turn = 10; ///< [deg] of a key
 constexpr double keyZoom = 1.25;
 constexpr int manySteps = 100;
+constexpr double textStep = 1.1;
 
 Keys keys(std::initializer_list<const char*> texts) {
   Keys result;
@@ -26,7 +26,8 @@ Keys keys(std::initializer_list<const char*> texts) {
 
 std::vector<Command> MainWindow::commandRows() {
   std::vector<Command> rows;
-  for (auto part : {fileRows(), runRows(), viewRows(), panelRows(), helpRows()})
+  for (auto part :
+       {fileRows(), editRows(), runRows(), timeRows(), viewRows(), panelRows(), windowRows(), helpRows()})
     for (auto& row : part)
       rows.push_back(std::move(row));
   return rows;
@@ -40,7 +41,7 @@ std::vector<Command> MainWindow::fileRows() {
        .name = "&Open...",
        .keys = keys({"Ctrl+O"}),
        .toolTip = "Open a scene, a file of frames or a saved picture",
-       .icon = icon("open"),
+       .icon = "open",
        .inToolBar = true,
        .perform = [this](bool) { chooseFile(); }},
       {.id = "file.openRun",
@@ -50,15 +51,43 @@ std::vector<Command> MainWindow::fileRows() {
        .toolTip = "Open the folder of a run",
        .icon = {},
        .perform = [this](bool) { chooseFolder(); }},
+      {.id = "file.newTab",
+       .menu = menu,
+       .name = "New &tab",
+       .keys = keys({"Ctrl+T"}),
+       .toolTip = "Another scene or run beside those that are open; begins with the samples",
+       .icon = {},
+       .perform = [this](bool) { newTab(); }},
+      {.id = "file.closeTab",
+       .menu = menu,
+       .name = "&Close tab",
+       .keys = keys({"Ctrl+W"}),
+       .toolTip = "Close what this tab shows; a run going on is stopped and can go on later",
+       .icon = {},
+       .perform = [this](bool) { closeTab(tabBar_->currentIndex()); }},
       {.id = "file.savePicture",
        .menu = menu,
        .name = "&Save picture...",
        .keys = keys({"Ctrl+S"}),
        .toolTip = "Save the picture as PNG, with what is needed to find its run again",
-       .icon = icon("save"),
+       .icon = "save",
        .inToolBar = true,
        .beginsGroup = true,
        .perform = [this](bool) { choosePictureFile(); }},
+      {.id = "file.saveScene",
+       .menu = menu,
+       .name = "Save s&cene...",
+       .keys = keys({"Ctrl+Shift+S"}),
+       .toolTip = "Save the scene as it stands in the panel",
+       .icon = {},
+       .perform = [this](bool) { chooseSceneFile(); }},
+      {.id = "file.saveSession",
+       .menu = menu,
+       .name = "Save sess&ion...",
+       .keys = keys({"Ctrl+Alt+S"}),
+       .toolTip = "Save all that is open, with views, moments and panels; open it like any file",
+       .icon = {},
+       .perform = [this](bool) { chooseSessionFile(); }},
       {.id = "file.quit",
        .menu = menu,
        .name = "&Quit",
@@ -70,6 +99,26 @@ std::vector<Command> MainWindow::fileRows() {
   };
 }
 
+std::vector<Command> MainWindow::editRows() {
+  const QString menu = "&Edit";
+  return {
+      {.id = "edit.undo",
+       .menu = menu,
+       .name = "&Undo",
+       .keys = keys({"Ctrl+Z"}),
+       .toolTip = "Take back the last change of scene or view",
+       .icon = {},
+       .perform = [this](bool) { now_->undo.undo(); }},
+      {.id = "edit.redo",
+       .menu = menu,
+       .name = "&Redo",
+       .keys = keys({"Ctrl+Shift+Z", "Ctrl+Y"}),
+       .toolTip = "Make the change again that was taken back",
+       .icon = {},
+       .perform = [this](bool) { now_->undo.redo(); }},
+  };
+}
+
 std::vector<Command> MainWindow::runRows() {
   const QString menu = "&Run";
   return {
@@ -78,7 +127,7 @@ std::vector<Command> MainWindow::runRows() {
        .name = "&Run",
        .keys = keys({"F5", "Space"}),
        .toolTip = "Run the scene, or go on; while it runs: pause",
-       .icon = icon("run"),
+       .icon = "run",
        .inToolBar = true,
        .perform = [this](bool) { startOrPause(); }},
       {.id = "run.step",
@@ -86,39 +135,67 @@ std::vector<Command> MainWindow::runRows() {
        .name = "One &step",
        .keys = keys({"S"}),
        .toolTip = "Advance one time step and pause",
-       .icon = icon("step"),
+       .icon = "step",
        .inToolBar = true,
-       .perform = [this](bool) { session_->step(1); }},
+       .perform = [this](bool) { step(1); }},
       {.id = "run.steps",
        .menu = menu,
        .name = "100 s&teps",
        .keys = keys({"Shift+S"}),
        .toolTip = "Advance a hundred time steps and pause",
        .icon = {},
-       .perform = [this](bool) { session_->step(manySteps); }},
+       .perform = [this](bool) { step(manySteps); }},
       {.id = "run.stop",
        .menu = menu,
        .name = "S&top",
        .keys = keys({"Shift+F5"}),
        .toolTip = "Finish the step, write a checkpoint and end; Run goes on from there",
-       .icon = icon("stop"),
+       .icon = "stop",
        .inToolBar = true,
        .perform = [this](bool) { session_->stop(); }},
+      {.id = "run.endStage",
+       .menu = menu,
+       .name = "&End the stage",
+       .keys = keys({"Shift+E"}),
+       .toolTip = "The next stage begins after the next step",
+       .icon = {},
+       .beginsGroup = true,
+       .perform = [this](bool) { changeRun({.endStage = true}); }},
+      {.id = "run.branch",
+       .menu = menu,
+       .name = "&Branch from this frame",
+       .keys = keys({"B"}),
+       .toolTip = "What if: a new run, in a new tab, that shares the past up to the frame shown",
+       .icon = {},
+       .perform = [this](bool) { branch(); }},
+  };
+}
+
+std::vector<Command> MainWindow::timeRows() {
+  const QString menu = "&Time";
+  return {
+      {.id = "time.play",
+       .menu = menu,
+       .name = "P&lay saved frames",
+       .keys = keys({"Ctrl+Space"}),
+       .toolTip = "Show the saved frames one after the other, round and round",
+       .icon = {},
+       .checkable = true,
+       .perform = [this](bool on) { time_->play(on); }},
       {.id = "time.back",
        .menu = menu,
        .name = "&Previous frame",
        .keys = keys({","}),
        .toolTip = "Show the saved frame before",
-       .icon = icon("back"),
+       .icon = "back",
        .inToolBar = true,
-       .beginsGroup = true,
        .perform = [this](bool) { time_->stepBy(-1); }},
       {.id = "time.forward",
        .menu = menu,
        .name = "&Next frame",
        .keys = keys({"."}),
        .toolTip = "Show the saved frame after",
-       .icon = icon("forward"),
+       .icon = "forward",
        .inToolBar = true,
        .perform = [this](bool) { time_->stepBy(1); }},
       {.id = "time.first",
@@ -146,7 +223,7 @@ std::vector<Command> MainWindow::viewRows() {
        .name = "&Fit",
        .keys = keys({"F"}),
        .toolTip = "See everything",
-       .icon = icon("fit"),
+       .icon = "fit",
        .inToolBar = true,
        .perform = [this](bool) { usePreset("fit"); }},
   };
@@ -192,7 +269,8 @@ std::vector<Command> MainWindow::viewRows() {
                   .icon = {},
                   .checkable = true,
                   .perform = [this](bool on) {
-                    view_.camera.orthographic = on;
+                    now_->view.camera.orthographic = on;
+                    keepView("parallel projection");
                     requestPicture();
                   }});
   return rows;
@@ -200,23 +278,61 @@ std::vector<Command> MainWindow::viewRows() {
 
 std::vector<Command> MainWindow::panelRows() {
   std::vector<Command> rows;
-  const auto panel = [&](const char* id, const char* name, const char* key) {
-    rows.push_back({.id = QString("panel.") + id,
+  const auto panel = [&](const QString& id, const QString& name, const QString& key, const QString& tip) {
+    rows.push_back({.id = "panel." + id,
                     .menu = "&Panels",
                     .name = name,
-                    .keys = keys({key}),
-                    .toolTip = QString("Show or hide this panel"),
+                    .keys = key.isEmpty() ? Keys() : Keys{QKeySequence(key)},
+                    .toolTip = tip,
                     .icon = {},
                     .checkable = true,
                     .checked = true,
-                    .perform = [this, id](bool on) { docks_.at(id)->setVisible(on); }});
+                    .perform = [this, id](bool on) {
+                      docks_.at(id)->setVisible(on);
+                      if (on) docks_.at(id)->raise();
+                    }});
   };
-  panel("view", "&View", "Ctrl+1");
-  panel("scene", "&Scene", "Ctrl+2");
-  panel("log", "&Log", "Ctrl+3");
-  panel("energies", "&Energies", "Ctrl+4");
-  panel("flow", "&Flow rate", "Ctrl+5");
-  panel("gr", "&g(r)", "Ctrl+6");
+  panel("view", "&View", "Ctrl+1", "How the picture is drawn");
+  panel("run", "&Run", "Ctrl+2", "Stages, pace, and what may change while the run goes on");
+  panel("scene", "&Scene", "Ctrl+3", "The scene as a form and as text");
+  panel("accuracy", "S&peed and accuracy", "Ctrl+4", "The knobs, and what the run really does");
+  panel("log", "&Log", "Ctrl+5", "What happened");
+  panel("energies", "&Energies", "Ctrl+6", "Energies of the grains against time");
+  panel("flow", "&Flow rate", "Ctrl+7", "Mass flow against time");
+  panel("inspector", "&Grain", "Ctrl+8", "All about the grain that was clicked");
+  int number = 0;
+  for (const auto& analysis : frameAnalyses())
+    panel(analysis.id, analysis.title, ++number > 9 ? QString() : QString("Alt+%1").arg(number),
+          analysis.tip);
+  return rows;
+}
+
+std::vector<Command> MainWindow::windowRows() {
+  const QString menu = "&Window";
+  const auto row = [&](const char* id, const char* name, const char* key, const char* tip, auto perform) {
+    return Command{.id = id,
+                   .menu = menu,
+                   .name = name,
+                   .keys = keys({key}),
+                   .toolTip = tip,
+                   .icon = {},
+                   .perform = perform};
+  };
+  std::vector<Command> rows{
+      row("window.larger", "&Larger text", "Ctrl+=", "All text a tenth larger",
+          [this](bool) { setTextScale(textScale_ * textStep); }),
+      row("window.smaller", "&Smaller text", "Ctrl+-", "All text a tenth smaller",
+          [this](bool) { setTextScale(textScale_ / textStep); }),
+      row("window.dark", "&Dark", "Ctrl+D", "Light letters on dark ground; pictures keep their background",
+          [this](bool on) { setDark(on); }),
+      row("window.full", "&Full screen", "F11", "The window without its frame",
+          [this](bool on) {
+            setWindowState(on ? windowState() | Qt::WindowFullScreen : windowState() & ~Qt::WindowFullScreen);
+          }),
+      row("window.next", "&Next tab", "Ctrl+Tab", "Show the tab after this one",
+          [this](bool) { showTab((tabBar_->currentIndex() + 1) % tabs()); }),
+  };
+  rows[2].checkable = rows[3].checkable = true;
   return rows;
 }
 
@@ -227,7 +343,7 @@ std::vector<Command> MainWindow::helpRows() {
        .name = "&Keys and mouse",
        .keys = keys({"?", "F1"}),
        .toolTip = "All keys and mouse gestures",
-       .icon = icon("help"),
+       .icon = "help",
        .inToolBar = true,
        .perform = [this](bool) { showCheatSheet(); }},
   };

@@ -1,0 +1,90 @@
+#include "app/desktop/analysis_worker.h"
+
+#include "app/desktop/background.h"
+#include "sim/base/error.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace sandglass::desktop {
+
+namespace {
+
+constexpr int nice = 5; // the rest below bounds its share; a higher one would starve it beside a busy run
+constexpr double shortestInterval = 2; ///< [s] between results beside a simulation
+constexpr double restShare = 20;       ///< rests this many times as long as it computed
+
+} // namespace
+
+AnalysisWorker::AnalysisWorker() : thread_([this] { work(); }) {}
+
+AnalysisWorker::~AnalysisWorker() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void AnalysisWorker::compute(const FrameAnalysis& analysis, AnalysisInput input, bool restart, bool beside) {
+  const std::lock_guard lock(mutex_);
+  const QString id = analysis.id;
+  if (restart) ++epochs_[id];
+  if (orders_.contains(id)) ++done_;
+  orders_[id] = {&analysis, std::move(input), epochs_[id], ++asked_, beside};
+  changed_.notify_all();
+}
+
+std::map<QString, AnalysisWorker::Outcome> AnalysisWorker::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(results_, {});
+}
+
+std::optional<AnalysisWorker::Order> AnalysisWorker::next() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return quit_ || !orders_.empty(); });
+  if (quit_) return std::nullopt;
+  const auto oldest = std::min_element(orders_.begin(), orders_.end(), [](const auto& a, const auto& b) {
+    return a.second.number < b.second.number;
+  });
+  return std::move(orders_.extract(oldest).mapped());
+}
+
+void AnalysisWorker::work() {
+  lowerPriority(nice);
+  tbb::task_arena arena(1);
+  while (const auto order = next()) {
+    const double before = threadSeconds();
+    Outcome outcome = arena.execute([&] { return outcomeOf(*order); });
+    const double seconds = threadSeconds() - before;
+    std::unique_lock lock(mutex_);
+    const QString id = order->analysis->id;
+    if (order->epoch == epochs_[id]) {
+      const bool first = results_.empty();
+      results_[id] = std::move(outcome);
+      if (first) Q_EMIT ready();
+    }
+    ++done_;
+    if (!order->beside) continue;
+    const std::chrono::duration<double> rest(std::max(shortestInterval, restShare * seconds));
+    changed_.wait_for(lock, rest, [&] { return quit_; });
+  }
+}
+
+AnalysisWorker::Outcome AnalysisWorker::outcomeOf(const Order& order) {
+  try {
+    analysis::Curve curve = order.analysis->compute(order.input);
+    curve.title.clear(); // the panel has its own
+    if (curve.series.size() == 1) curve.series[0].name.clear();
+    curve.provenance.insert(order.input.frame->provenance.begin(), order.input.frame->provenance.end());
+    return {std::move(curve), {}};
+  } catch (const Error& e) {
+    return {std::nullopt, QString::fromUtf8(e.what())};
+  }
+}
+
+} // namespace sandglass::desktop

@@ -1,0 +1,62 @@
+#pragma once
+// The analyses of the panels, in a thread of their own: one thread wide, at low priority, never begun for a
+// frame that is outdated, and resting long enough to stay a small guest beside a running simulation.
+
+#include "app/desktop/analyses.h"
+#include "app/desktop/one_slot.h"
+
+#include <QObject>
+#include <QString>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace sandglass::desktop {
+
+class AnalysisWorker : public QObject {
+  Q_OBJECT
+public:
+  AnalysisWorker();
+  ~AnalysisWorker() override;
+
+  /// Replaces an order of the same analysis that waits; its result is dropped when one with `restart` set
+  /// comes meanwhile. `beside`: a simulation runs, to which most of the processor belongs.
+  void compute(const FrameAnalysis& analysis, AnalysisInput input, bool restart, bool beside);
+
+  struct Outcome {
+    std::optional<analysis::Curve> curve;
+    QString fault; ///< why there is none
+  };
+  bool isIdle() const { return done_ == asked_; } ///< nothing waits and nothing is being worked on
+  std::map<QString, Outcome> take();              ///< the newest results by id
+
+Q_SIGNALS: // from the worker's thread
+  void ready();
+
+private:
+  struct Order {
+    const FrameAnalysis* analysis = nullptr;
+    AnalysisInput input;
+    std::uint64_t epoch = 0, number = 0;
+    bool beside = false;
+  };
+  void work();
+  std::optional<Order> next();
+  static Outcome outcomeOf(const Order& order);
+
+  std::atomic<std::uint64_t> asked_{0}, done_{0}; ///< numbers of orders; replaced ones count as done
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<QString, Order> orders_;
+  std::map<QString, std::uint64_t> epochs_;
+  std::map<QString, Outcome> results_;
+  bool quit_ = false;
+  std::thread thread_;
+};
+
+} // namespace sandglass::desktop

@@ -1,0 +1,28 @@
+#pragma once
+// One tab of the window: what is open in it and how it is looked at.
+
+#include "app/desktop/session.h"
+#include "vis/view.h"
+
+#include <QUndoStack>
+
+#include <memory>
+#include <optional>
+
+namespace sandglass::desktop {
+
+struct Document {
+  explicit Document(const SessionOptions& options) : session(std::make_unique<Session>(options)) {}
+
+  std::unique_ptr<Session> session;
+  vis::View view;
+  vis::View kept;                    ///< the view before the change that goes on; what undo goes back to
+  FramePtr preview;                  ///< of the scene, while it has no frames
+  FramePtr shown;                    ///< null until a picture is there
+  QString sceneText;                 ///< as edited; the session has the last sound one
+  std::optional<std::size_t> chosen; ///< frame, while another tab is shown
+  std::int64_t grain = -1;           ///< picked
+  QUndoStack undo;
+};
+
+} // namespace sandglass::desktop
