@@ -3,7 +3,7 @@
 #include "analysis/contact_statistics.h"
 #include "analysis/histogram.h"
 #include "analysis/packing.h"
-#include "analysis/pair_correlation.h"
+#include "analysis/registry.h"
 #include "sim/base/error.h"
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace sandglass::desktop {
 
@@ -18,18 +19,49 @@ namespace {
 
 using analysis::Curve;
 
-constexpr int bins = 120;
+constexpr std::size_t mostFrames = 30; ///< of a run that an analysis in time looks at
+constexpr std::int64_t panelPoints =
+    20000; ///< for shells' volumes; a panel needs no more than its line is wide
 
-Curve pairCorrelation(const AnalysisInput& in) {
-  analysis::PairCorrelationOptions options;
-  options.bins = bins;
-  options.pointsPerShell = 20000; // a panel needs no more than its line is wide
-  if (in.up.norm() > 0) options.region.up = in.up.normalized();
-  Curve curve = analysis::pairCorrelation(*in.frame, options).g;
-  for (auto& series : curve.series)
-    for (std::size_t k = 0; k < series.error.size(); ++k) // where no pair was found there is nothing to see
-      if (series.y[k] == 0) series.error[k] = 0;
-  return curve;
+/// "name=value name=value" over the fallbacks.
+Parameters knobsOf(const analysis::AnalysisKind& kind, const std::string& text) {
+  Parameters knobs = analysis::defaultKnobs(kind);
+  if (knobs.has("points_per_shell")) knobs.set("points_per_shell", panelPoints);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const auto equals = word.find('=');
+    if (equals == std::string::npos) throw InputError(fmt::format("'{}' is no knob; write name=value", word));
+    analysis::setKnob(knobs, kind, word.substr(0, equals), word.substr(equals + 1));
+  }
+  return knobs;
+}
+
+/// Frames for an analysis in time, evenly over the run up to the one that is shown.
+std::vector<FramePtr> framesOf(const AnalysisInput& in) {
+  std::vector<FramePtr> frames;
+  if (!in.frames) return frames;
+  const std::size_t size = in.frames->size(), stride = 1 + size / mostFrames;
+  for (std::size_t k = 0; k < size && in.frames->time(k) <= in.frame->time; k += stride)
+    frames.push_back(in.frames->load(k));
+  return frames;
+}
+
+analysis::Results ofRegistry(const analysis::AnalysisKind& kind, const AnalysisInput& in) {
+  analysis::AnalysisContext context;
+  if (in.scene) context.facts = analysis::factsOf(*in.scene);
+  const auto frames = kind.needs.frames > 1 ? framesOf(in) : std::vector<FramePtr>{in.frame};
+  analysis::Results results = analysis::analyze(kind, knobsOf(kind, in.knobs), context, frames);
+  for (auto& curve : results.curves)
+    for (auto& series : curve.series)
+      for (std::size_t k = 0; k < series.error.size(); ++k) // where nothing was found there is nothing to see
+        if (series.y[k] == 0) series.error[k] = 0;
+  return results;
+}
+
+analysis::Results alone(Curve curve) {
+  analysis::Results results;
+  results.curves.push_back(std::move(curve));
+  return results;
 }
 
 /// Density of `values` as a staircase.
@@ -54,7 +86,7 @@ Curve densityOf(const std::vector<double>& values, const std::string& name, cons
   return curve;
 }
 
-Curve histogramOf(const AnalysisInput& in) {
+analysis::Results histogramOf(const AnalysisInput& in) {
   const std::string quantity = in.quantity.empty() ? "speed" : in.quantity;
   std::vector<double> values = grainScalar(*in.frame, quantity);
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
@@ -75,24 +107,26 @@ Curve histogramOf(const AnalysisInput& in) {
   curve.numbers = {{"mean", mean}, {"deviation", deviation}};
   curve.definition = fmt::format("{} grains; mean {:.4g}, standard deviation {:.3g} {}.", values.size(), mean,
                                  deviation, unitOf(quantity));
-  return curve;
+  return alone(std::move(curve));
 }
 
-Curve packing(const AnalysisInput& in) {
+analysis::Results packing(const AnalysisInput& in) {
   analysis::PackingOptions options;
-  if (in.up.norm() > 0) options.up = in.up.normalized();
+  if (in.scene && in.scene->gravity.norm() > 0) options.up = -in.scene->gravity.normalized();
   analysis::PackingProfile profile(options);
   profile.add(*in.frame);
-  return profile.result();
+  return alone(profile.result());
 }
 
-Curve forces(const AnalysisInput& in) {
+analysis::Results forces(const AnalysisInput& in) {
   analysis::ContactStatistics statistics({});
   statistics.add(*in.frame);
-  return statistics.forces();
+  analysis::Results results = alone(statistics.forces());
+  results.curves.push_back(statistics.overlaps());
+  return results;
 }
 
-Curve contactNumbers(const AnalysisInput& in) {
+analysis::Results contactNumbers(const AnalysisInput& in) {
   const Frame& frame = *in.frame;
   if (frame.contacts.empty())
     throw InputError(
@@ -118,21 +152,29 @@ Curve contactNumbers(const AnalysisInput& in) {
   curve.numbers = {{"coordination", mean}};
   curve.definition =
       fmt::format("{} grains, walls counted; coordination by grains alone {:.3f}.", values.size(), mean);
-  return curve;
+  return alone(std::move(curve));
 }
 
 } // namespace
 
-const std::vector<FrameAnalysis>& frameAnalyses() {
-  static const std::vector<FrameAnalysis> all{
-      {"gr", "Pair correlation g(r)", "Pair correlation of the frame that is shown, corrected for walls",
-       false, true, pairCorrelation},
-      {"histogram", "Histogram", "How any quantity of the grains is distributed", true, false, histogramOf},
-      {"packing", "Packing", "Packing fraction by height", false, false, packing},
-      {"contacts", "Contacts", "How many contacts grains have", false, false, contactNumbers},
-      {"forces", "Contact forces", "How contact forces are distributed about their mean", false, false,
-       forces},
-  };
+const std::vector<PanelAnalysis>& panelAnalyses() {
+  static const std::vector<PanelAnalysis> all = [] {
+    std::vector<PanelAnalysis> list;
+    for (const auto& kind : analysis::analysisKinds())
+      list.push_back({kind.name, kind.title, kind.description, false, kind.name == "gr", kind.knobs,
+                      [&kind](const AnalysisInput& in) { return ofRegistry(kind, in); }});
+    const auto own = [&](const char* id, const char* title, const char* tip, bool asksQuantity,
+                         auto compute) {
+      for (const auto& panel : list)
+        if (panel.id == id) return; // the registry has it by now
+      list.push_back({id, title, tip, asksQuantity, false, {}, compute});
+    };
+    own("histogram", "Histogram", "how any quantity of the grains is distributed", true, histogramOf);
+    own("packing", "Packing", "packing fraction by height", false, packing);
+    own("contacts", "Contacts", "how many contacts grains have", false, contactNumbers);
+    own("forces", "Contact forces", "how contact forces and overlaps are distributed", false, forces);
+    return list;
+  }();
   return all;
 }
 

@@ -30,9 +30,9 @@ AnalysisWorker::~AnalysisWorker() {
   thread_.join();
 }
 
-void AnalysisWorker::compute(const FrameAnalysis& analysis, AnalysisInput input, bool restart, bool beside) {
+void AnalysisWorker::compute(const PanelAnalysis& analysis, AnalysisInput input, bool restart, bool beside) {
   const std::lock_guard lock(mutex_);
-  const QString id = analysis.id;
+  const QString id = QString::fromStdString(analysis.id);
   if (restart) ++epochs_[id];
   if (orders_.contains(id)) ++done_;
   orders_[id] = {&analysis, std::move(input), epochs_[id], ++asked_, beside};
@@ -62,7 +62,7 @@ void AnalysisWorker::work() {
     Outcome outcome = arena.execute([&] { return outcomeOf(*order); });
     const double seconds = threadSeconds() - before;
     std::unique_lock lock(mutex_);
-    const QString id = order->analysis->id;
+    const QString id = QString::fromStdString(order->analysis->id);
     if (order->epoch == epochs_[id]) {
       const bool first = results_.empty();
       results_[id] = std::move(outcome);
@@ -77,11 +77,12 @@ void AnalysisWorker::work() {
 
 AnalysisWorker::Outcome AnalysisWorker::outcomeOf(const Order& order) {
   try {
-    analysis::Curve curve = order.analysis->compute(order.input);
-    curve.title.clear(); // the panel has its own
-    if (curve.series.size() == 1) curve.series[0].name.clear();
-    curve.provenance.insert(order.input.frame->provenance.begin(), order.input.frame->provenance.end());
-    return {std::move(curve), {}};
+    analysis::Results results = order.analysis->compute(order.input);
+    for (auto& curve : results.curves) {
+      if (curve.series.size() == 1) curve.series[0].name.clear();
+      curve.provenance.insert(order.input.frame->provenance.begin(), order.input.frame->provenance.end());
+    }
+    return {std::move(results), {}};
   } catch (const Error& e) {
     return {std::nullopt, QString::fromUtf8(e.what())};
   }

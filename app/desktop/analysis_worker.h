@@ -26,10 +26,10 @@ public:
 
   /// Replaces an order of the same analysis that waits; its result is dropped when one with `restart` set
   /// comes meanwhile. `beside`: a simulation runs, to which most of the processor belongs.
-  void compute(const FrameAnalysis& analysis, AnalysisInput input, bool restart, bool beside);
+  void compute(const PanelAnalysis& analysis, AnalysisInput input, bool restart, bool beside);
 
   struct Outcome {
-    std::optional<analysis::Curve> curve;
+    std::optional<analysis::Results> results;
     QString fault; ///< why there is none
   };
   bool isIdle() const { return done_ == asked_; } ///< nothing waits and nothing is being worked on
@@ -40,7 +40,7 @@ Q_SIGNALS: // from the worker's thread
 
 private:
   struct Order {
-    const FrameAnalysis* analysis = nullptr;
+    const PanelAnalysis* analysis = nullptr;
     AnalysisInput input;
     std::uint64_t epoch = 0, number = 0;
     bool beside = false;

@@ -94,6 +94,57 @@ void ChartPanel::offerQuantities(const std::vector<std::string>& names) {
   quantity_->setCurrentIndex(std::max(0, quantity_->findText(chosen)));
 }
 
+void ChartPanel::setCurves(std::vector<analysis::Curve> curves) {
+  curves_ = std::move(curves);
+  QStringList names;
+  for (const auto& curve : curves_)
+    names << QString::fromStdString(curve.title.empty() ? curve.name : curve.title);
+  if (!which_ && curves_.size() > 1) {
+    which_ = new QComboBox(bar_);
+    which_->setObjectName("curve");
+    which_->setAccessibleName("Curve");
+    which_->setMaximumWidth(150);
+    static_cast<QHBoxLayout*>(bar_->layout())->insertWidget(0, which_);
+    connect(which_, QOverload<int>::of(&QComboBox::activated), this, [this](int k) {
+      zoom_.reset();
+      if (k >= 0 && static_cast<std::size_t>(k) < curves_.size()) show(curves_[static_cast<std::size_t>(k)]);
+    });
+  }
+  int chosen = 0;
+  if (which_) {
+    const QSignalBlocker blocker(which_);
+    chosen = std::max(0, static_cast<int>(names.indexOf(which_->currentText())));
+    which_->clear();
+    which_->addItems(names);
+    which_->setCurrentIndex(chosen);
+    which_->setVisible(curves_.size() > 1);
+  }
+  show(curves_[static_cast<std::size_t>(chosen)]);
+}
+
+void ChartPanel::show(analysis::Curve curve) {
+  curve.title.clear(); // the panel has its own
+  setCurve(std::move(curve));
+}
+
+void ChartPanel::offerKnobs(const std::vector<ParameterSpec>& knobs) {
+  if (knobs.empty()) return;
+  knobs_ = new QLineEdit(bar_);
+  knobs_->setObjectName("knobs");
+  knobs_->setAccessibleName("Knobs of the analysis");
+  knobs_->setPlaceholderText("knobs, such as " + QString::fromStdString(knobs.front().name) + "=...");
+  QString tip = "Knobs as name=value, with spaces between:";
+  for (const auto& knob : knobs)
+    tip +=
+        QString("\n%1: %2").arg(QString::fromStdString(knob.name), QString::fromStdString(knob.description));
+  knobs_->setToolTip(tip);
+  static_cast<QHBoxLayout*>(bar_->layout())->insertWidget(0, knobs_, 1);
+  connect(knobs_, &QLineEdit::editingFinished, this, [this] {
+    if (knobs_->isModified()) Q_EMIT knobsChanged();
+    knobs_->setModified(false);
+  });
+}
+
 void ChartPanel::setCurve(analysis::Curve curve) {
   curve_ = std::move(curve);
   want();

@@ -4,10 +4,12 @@
 // and export what is shown.
 
 #include "analysis/result.h"
+#include "sim/scene/parameters.h"
 #include "vis/renderer.h"
 
 #include <QComboBox>
 #include <QImage>
+#include <QLineEdit>
 #include <QToolButton>
 #include <QWidget>
 
@@ -23,6 +25,11 @@ public:
   ChartPanel(const QString& name, const QString& hint, QWidget* parent = nullptr);
 
   void setCurve(analysis::Curve curve);
+  /// Several: the panel lets the user choose which is shown.
+  void setCurves(std::vector<analysis::Curve> curves);
+  /// A line for knobs as "name=value ..."; emits knobsChanged().
+  void offerKnobs(const std::vector<ParameterSpec>& knobs);
+  QString knobs() const { return knobs_ ? knobs_->text() : QString(); }
   void setImage(const QImage& image, const vis::ChartPlace& place);
   void clear(const QString& hint);
   void setPinName(const QString& name) { pinName_ = name; } ///< of curves pinned from now on
@@ -47,6 +54,7 @@ Q_SIGNALS:
   void wanted(const QString& name, const analysis::Curve& curve, QSize pixels);
   void exportWanted(const analysis::Curve& curve, const QString& suffix); ///< "csv" or "png"
   void quantityChosen();
+  void knobsChanged();
 
 protected:
   void paintEvent(QPaintEvent* event) override;
@@ -61,6 +69,8 @@ protected:
 
 private:
   QToolButton* button(const char* name, const QString& text, const QString& tip);
+  using QWidget::show;
+  void show(analysis::Curve curve);
   void want();
   void zoomTo(double low, double high);
   double valueAt(double pixel) const; ///< of the x axis, as it is drawn
@@ -68,7 +78,9 @@ private:
 
   QWidget* bar_;
   QToolButton *logX_, *logY_, *unpin_;
-  QComboBox* quantity_ = nullptr;
+  QComboBox *quantity_ = nullptr, *which_ = nullptr;
+  QLineEdit* knobs_ = nullptr;
+  std::vector<analysis::Curve> curves_;
   std::optional<analysis::Curve> curve_;
   std::vector<analysis::Series> pins_;
   QString pinName_;

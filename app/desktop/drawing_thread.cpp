@@ -3,6 +3,7 @@
 #include "app/desktop/background.h"
 #include "sim/base/error.h"
 #include "vis/chart.h"
+#include "vis/history.h"
 
 #include <fmt/format.h>
 
@@ -172,12 +173,29 @@ std::optional<DrawingThread::Task> DrawingThread::dueTask(Clock::time_point now)
   return std::nullopt;
 }
 
+void DrawingThread::lookBack(vis::Renderer& renderer, const vis::View& view,
+                             const std::shared_ptr<const FrameSource>& run) {
+  if (!vis::needsHistory(view) || !run || run->size() == 0) {
+    if (!history_.empty()) renderer.setHistory(nullptr);
+    history_.clear();
+    return;
+  }
+  std::string key = fmt::format("{} {}", fmt::ptr(run.get()), run->size());
+  for (const auto grain : view.tracks.grains)
+    key += fmt::format(" {}", grain);
+  if (key == history_) return;
+  renderer.setHistory(std::make_shared<const vis::History>(vis::historyOf(*run, view)));
+  history_ = key;
+}
+
 void DrawingThread::drawPicture(vis::Renderer& renderer, const PictureOrder& order) {
   Picture picture;
   picture.frame = order.frame ? order.frame : order.source->load(order.index);
   vis::View view = order.view;
+  lookBack(renderer, view, order.run);
   const auto known = grainScalarNames(*picture.frame);
-  if (std::find(known.begin(), known.end(), view.colouring.quantity) == known.end())
+  if (!vis::originalAxis(view.colouring.quantity) &&
+      std::find(known.begin(), known.end(), view.colouring.quantity) == known.end())
     view.colouring.quantity.clear(); // frames of other origin may hold positions alone
   picture.image = toQImage(renderer.draw(*picture.frame, view));
   picture.camera = renderer.resolvedCamera();
@@ -189,6 +207,7 @@ void DrawingThread::drawPicture(vis::Renderer& renderer, const PictureOrder& ord
 void DrawingThread::writePicture(vis::Renderer& renderer, const PictureFile& file) {
   QString fault;
   try {
+    lookBack(renderer, file.view, file.run);
     const vis::Image image = renderer.draw(*file.frame, file.view);
     auto text = file.frame->provenance;
     text.insert(file.text.begin(), file.text.end());

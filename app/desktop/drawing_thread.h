@@ -36,6 +36,7 @@ struct PictureOrder {
   FramePtr frame;
   std::shared_ptr<const FrameSource> source;
   std::size_t index = 0;
+  std::shared_ptr<const FrameSource> run; ///< the other frames, for views that look back
   vis::View view;
   quint64 number = 0;       ///< of the order; its picture carries it
   bool interactive = false; ///< somebody waits with the mouse button down
@@ -54,6 +55,7 @@ struct PictureFile {
   vis::View view;
   std::string file;
   std::map<std::string, std::string> text; ///< further chunks; provenance and view are added
+  std::shared_ptr<const FrameSource> run;
 };
 
 class DrawingThread : public QObject {
@@ -92,6 +94,8 @@ private:
   std::optional<Task> dueTask(Clock::time_point now);
   Clock::time_point nextDue() const;
   void drawPicture(vis::Renderer& renderer, const PictureOrder& order);
+  void lookBack(vis::Renderer& renderer, const vis::View& view,
+                const std::shared_ptr<const FrameSource>& run);
   void writePicture(vis::Renderer& renderer, const PictureFile& file);
   void rest(double seconds, double processorSeconds);
 
@@ -105,6 +109,7 @@ private:
   bool simulationRuns_ = false, quit_ = false, chartLast_ = false;
   Clock::time_point pictureFrom_{}, chartFrom_{}; ///< not before
 
+  std::string history_; ///< what the renderer's history is of; of the drawing thread alone
   OneSlot<Picture> out_;
   std::thread thread_; ///< last: starts when all else is there
 };

@@ -50,7 +50,8 @@ MainWindow::MainWindow(const WindowOptions& options)
   connect(&curveTimer_, &QTimer::timeout, this, &MainWindow::refreshCurves);
   resize(1440, 900);
   resizeDocks({docks_["view"], docks_["energies"]}, {310, 390}, Qt::Horizontal);
-  resizeDocks({docks_["view"], docks_["scene"]}, {400, 400}, Qt::Vertical);
+  resizeDocks({docks_["view"], docks_["scene"]}, {360, 440}, Qt::Vertical);
+  resizeDocks({docks_["energies"], docks_["flow"], docks_["gr"]}, {260, 260, 290}, Qt::Vertical);
   enter(addDocument());
   readSettings();
 }
@@ -148,14 +149,18 @@ void MainWindow::buildCharts() {
   tabifyDockWidget(flow, inspector);
   flow->raise();
   QDockWidget* first = nullptr;
-  for (const auto& analysis : frameAnalyses()) {
-    auto* dock = chart(analysis.id, analysis.title, QString("%1.").arg(analysis.tip));
+  for (const auto& analysis : panelAnalyses()) {
+    const QString id = QString::fromStdString(analysis.id);
+    QString tip = QString::fromStdString(analysis.tip) + ".";
+    tip[0] = tip[0].toUpper();
+    auto* dock = chart(id, QString::fromStdString(analysis.title), tip);
+    charts_.at(id)->offerKnobs(analysis.knobs);
     if (first)
       tabifyDockWidget(first, dock);
     else
       first = dock;
     dock->setVisible(analysis.shown);
-    commands_->action(QString("panel.") + analysis.id)->setChecked(analysis.shown);
+    commands_->action("panel." + id)->setChecked(analysis.shown);
     connect(dock, &QDockWidget::visibilityChanged, this, [this](bool visible) {
       if (visible) requestAnalyses(true);
     });

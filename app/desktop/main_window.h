@@ -127,6 +127,7 @@ private:
   void say(LogLevel level, const QString& text);
   void complain(const QStringList& sentences);
   void usePreset(const std::string& preset);
+  void toggleTrack();
   void chooseFile();
   void chooseFolder();
   void choosePictureFile();

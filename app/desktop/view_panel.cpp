@@ -34,17 +34,23 @@ QLabel* heading(const QString& text) {
 
 } // namespace
 
-ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
+ViewPanel::ViewPanel(QWidget* parent) : QScrollArea(parent) {
   setObjectName("view");
-  setAutoFillBackground(true);
-  setBackgroundRole(QPalette::Base);
-  auto* form = new QFormLayout(this);
+  setWidgetResizable(true);
+  setFrameShape(QFrame::NoFrame);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  auto* page = new QWidget;
+  page->setAutoFillBackground(true);
+  page->setBackgroundRole(QPalette::Base);
+  setWidget(page);
+  auto* form = new QFormLayout(page);
   form->setContentsMargins(12, 10, 12, 10);
   form->setVerticalSpacing(7);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   addColours(form);
   addClip(form);
   addShown(form);
+  addForces(form);
   setView({});
 }
 
@@ -69,6 +75,19 @@ void ViewPanel::addColours(QFormLayout* form) {
   limits->addWidget(low_);
   limits->addWidget(high_);
   form->addRow("Limits", limits);
+  auto* steps = new QHBoxLayout;
+  bands_ = new QSpinBox(this);
+  bands_->setObjectName("bands");
+  bands_->setRange(0, 64);
+  bands_->setSpecialValueText("smooth");
+  bands_->setToolTip("So many steps instead of a smooth map of colours");
+  reversed_ = new QCheckBox("reversed", this);
+  reversed_->setObjectName("reversed");
+  steps->addWidget(bands_, 1);
+  steps->addWidget(reversed_);
+  form->addRow("Steps", steps);
+  connect(bands_, QOverload<int>::of(&QSpinBox::valueChanged), this, &ViewPanel::changed);
+  connect(reversed_, &QCheckBox::toggled, this, &ViewPanel::changed);
   for (auto* box : {quantity_, map_, range_})
     connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
       enable();
@@ -131,6 +150,38 @@ void ViewPanel::addShown(QFormLayout* form) {
     connect(box, &QCheckBox::toggled, this, &ViewPanel::changed);
 }
 
+void ViewPanel::addForces(QFormLayout* form) {
+  form->addRow(heading("Grains and forces"));
+  selection_ = new QLineEdit(this);
+  selection_->setObjectName("selection");
+  selection_->setPlaceholderText("such as z > 0.05 && speed < 0.1");
+  selection_->setToolTip("Grains chosen by an expression over their quantities");
+  form->addRow("Grains", selection_);
+  selectionUse_ = new QComboBox(this);
+  selectionUse_->setObjectName("selectionUse");
+  selectionUse_->addItems({"draw only these", "hide these", "others pale"}); // in the order of Selection::Use
+  form->addRow("", selectionUse_);
+  chains_ = new QCheckBox("force chains", this);
+  chains_->setObjectName("forceChains");
+  chains_->setToolTip(
+      "Contacts as tubes as thick as their force; the scene's [output] needs contacts = true");
+  arrows_ = new QComboBox(this);
+  arrows_->setObjectName("arrows");
+  arrows_->setToolTip("A vector of each grain as an arrow");
+  arrows_->addItem("no arrows");
+  auto* row = new QHBoxLayout;
+  row->addWidget(chains_);
+  row->addWidget(arrows_, 1);
+  form->addRow(row);
+  connect(selection_, &QLineEdit::editingFinished, this, [this] {
+    if (selection_->isModified()) Q_EMIT changed();
+    selection_->setModified(false);
+  });
+  for (auto* box : {selectionUse_, arrows_})
+    connect(box, QOverload<int>::of(&QComboBox::activated), this, &ViewPanel::changed);
+  connect(chains_, &QCheckBox::toggled, this, &ViewPanel::changed);
+}
+
 void ViewPanel::enable() {
   const bool coloured = quantity_->currentText() != oneColour;
   const bool fixed = coloured && range_->currentIndex() == static_cast<int>(vis::ColourRange::fixed);
@@ -146,7 +197,21 @@ void ViewPanel::enable() {
 void ViewPanel::setFrame(const Frame& frame) {
   lower_ = frame.domain.lower;
   upper_ = frame.domain.upper;
-  const auto names = grainScalarNames(frame);
+  QStringList vectors{"no arrows"}, now;
+  for (const auto& [name, list] : frame.vectors)
+    vectors << QString::fromStdString(name);
+  for (int k = 0; k < arrows_->count(); ++k)
+    now << arrows_->itemText(k);
+  if (vectors != now) {
+    const QString chosen = arrows_->currentText();
+    arrows_->clear();
+    arrows_->addItems(vectors);
+    arrows_->setCurrentIndex(std::max(0, arrows_->findText(chosen)));
+  }
+  auto names = grainScalarNames(frame);
+  if (frame.persistentIds)
+    for (const char* axis : {"original.x", "original.y", "original.z"})
+      names.emplace_back(axis);
   if (names == names_) return;
   names_ = names;
   const QSignalBlocker blocker(quantity_);
@@ -162,7 +227,8 @@ void ViewPanel::setFrame(const Frame& frame) {
 
 void ViewPanel::setView(const vis::View& view) {
   const QSignalBlocker a(quantity_), b(map_), c(range_), d(low_), e(high_), f(opacity_), g(walls_),
-      h(legend_), i(axes_), j(scale_), k(removedWalls_), l(clips_), m(axis_), n(position_), o(flip_);
+      h(legend_), i(axes_), j(scale_), k(removedWalls_), l(clips_), m(axis_), n(position_), o(flip_),
+      p(bands_), q(reversed_), r(chains_), s(arrows_), t(selectionUse_), u(selection_);
   const QString quantity =
       view.colouring.quantity.empty() ? oneColour : QString::fromStdString(view.colouring.quantity);
   if (quantity_->findText(quantity) < 0) quantity_->addItem(quantity);
@@ -177,6 +243,15 @@ void ViewPanel::setView(const vis::View& view) {
   legend_->setChecked(view.legend);
   axes_->setChecked(view.axes);
   scale_->setChecked(view.scaleBar);
+  bands_->setValue(view.colouring.bands);
+  reversed_->setChecked(view.colouring.reversed);
+  chains_->setChecked(view.forceChains.shown);
+  const QString arrows =
+      view.arrows.vector.empty() ? "no arrows" : QString::fromStdString(view.arrows.vector);
+  if (arrows_->findText(arrows) < 0) arrows_->addItem(arrows);
+  arrows_->setCurrentText(arrows);
+  selection_->setText(QString::fromStdString(view.selection.expression));
+  selectionUse_->setCurrentIndex(static_cast<int>(view.selection.use));
   clips_->setChecked(!view.clips.empty());
   if (!view.clips.empty()) {
     Eigen::Index axis = 0;
@@ -205,6 +280,12 @@ void ViewPanel::apply(vis::View& view) const {
     view.colouring.high = std::max(low_->value(), high_->value());
     if (!(view.colouring.high > view.colouring.low)) view.colouring.high = view.colouring.low + 1e-6;
   }
+  view.colouring.bands = bands_->value();
+  view.colouring.reversed = reversed_->isChecked();
+  view.forceChains.shown = chains_->isChecked();
+  view.arrows.vector = arrows_->currentIndex() > 0 ? arrows_->currentText().toStdString() : "";
+  view.selection.expression = selection_->text().trimmed().toStdString();
+  view.selection.use = static_cast<vis::Selection::Use>(selectionUse_->currentIndex());
   view.wallOpacity = opacity_->value() / 100.0;
   view.walls = walls_->isChecked();
   view.removedWalls = removedWalls_->isChecked();

@@ -1,5 +1,5 @@
 #pragma once
-// How the picture is drawn: colours, their range, one clip plane, what is shown.
+// How the picture is drawn: colours, their range, one clip plane, which grains, what is shown.
 
 #include "sim/frame/frame.h"
 #include "vis/view.h"
@@ -8,12 +8,14 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
+#include <QLineEdit>
+#include <QScrollArea>
 #include <QSlider>
-#include <QWidget>
+#include <QSpinBox>
 
 namespace sandglass::desktop {
 
-class ViewPanel : public QWidget {
+class ViewPanel : public QScrollArea {
   Q_OBJECT
 public:
   explicit ViewPanel(QWidget* parent = nullptr);
@@ -32,6 +34,7 @@ private:
   void addColours(QFormLayout* form);
   void addClip(QFormLayout* form);
   void addShown(QFormLayout* form);
+  void addForces(QFormLayout* form);
   void enable();
   Vec3 clipPoint() const;
 
@@ -43,6 +46,10 @@ private:
   QCheckBox* flip_;
   QSlider* opacity_;
   QCheckBox *walls_, *removedWalls_, *legend_, *axes_, *scale_;
+  QCheckBox *chains_, *reversed_;
+  QSpinBox* bands_;
+  QComboBox *arrows_, *selectionUse_;
+  QLineEdit* selection_;
   Vec3 lower_ = Vec3::Zero(), upper_ = Vec3::Ones();
   std::vector<std::string> names_; ///< of the quantities offered
 };

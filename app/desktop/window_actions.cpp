@@ -93,6 +93,18 @@ void MainWindow::usePreset(const std::string& preset) {
   requestPicture();
 }
 
+void MainWindow::toggleTrack() {
+  if (now_->grain < 0) return complain({"Click a grain first: its track is shown then."});
+  auto& tracked = now_->view.tracks.grains;
+  const auto at = std::find(tracked.begin(), tracked.end(), now_->grain);
+  if (at == tracked.end())
+    tracked.push_back(now_->grain);
+  else
+    tracked.erase(at);
+  keepView("track a grain");
+  requestPicture();
+}
+
 void MainWindow::showTime(double seconds) {
   const auto& store = session_->current().store;
   if (store && store->size() > 0) time_->choose(store->nearest(seconds));
@@ -135,7 +147,7 @@ void MainWindow::savePicture(const QString& file) {
   if (!now_->shown) return;
   const Opened& current = session_->current();
   const auto source = std::filesystem::absolute(current.runFolder.empty() ? current.path : current.runFolder);
-  drawing_->save({now_->shown, now_->view, file.toStdString(), {{"source", source.string()}}});
+  drawing_->save({now_->shown, now_->view, file.toStdString(), {{"source", source.string()}}, current.store});
 }
 
 void MainWindow::saveScene(const QString& file) {

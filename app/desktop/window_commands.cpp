@@ -261,6 +261,14 @@ std::vector<Command> MainWindow::viewRows() {
          [this](bool) { picture_->orbitBy(0, turn); });
   camera("view.turnDown", "Turn down", "Ctrl+Down", "Look from lower down",
          [this](bool) { picture_->orbitBy(0, -turn); });
+  rows.push_back({.id = "view.track",
+                  .menu = menu,
+                  .name = "Trac&k of the grain",
+                  .keys = keys({"T"}),
+                  .toolTip = "Show or hide where the grain that was clicked has been",
+                  .icon = {},
+                  .beginsGroup = true,
+                  .perform = [this](bool) { toggleTrack(); }});
   rows.push_back({.id = "view.orthographic",
                   .menu = menu,
                   .name = "&Parallel projection",
@@ -301,9 +309,9 @@ std::vector<Command> MainWindow::panelRows() {
   panel("flow", "&Flow rate", "Ctrl+7", "Mass flow against time");
   panel("inspector", "&Grain", "Ctrl+8", "All about the grain that was clicked");
   int number = 0;
-  for (const auto& analysis : frameAnalyses())
-    panel(analysis.id, analysis.title, ++number > 9 ? QString() : QString("Alt+%1").arg(number),
-          analysis.tip);
+  for (const auto& analysis : panelAnalyses())
+    panel(QString::fromStdString(analysis.id), QString::fromStdString(analysis.title),
+          ++number > 9 ? QString() : QString("Alt+%1").arg(number), QString::fromStdString(analysis.tip));
   return rows;
 }
 

@@ -55,6 +55,7 @@ void MainWindow::requestPicture(bool interactive) {
   view.width = pixels.width();
   view.height = pixels.height();
   order.view = view;
+  order.run = store;
   if (interactive) order.view.maximumGrains = grainsWhileMoving;
   order.number = ++ordered_;
   drawing_->draw(std::move(order));
@@ -95,16 +96,17 @@ void MainWindow::refreshPanels(bool restart) {
 
 void MainWindow::requestAnalyses(bool restart) {
   if (!now_ || !now_->shown || now_->shown->size() < 2) return;
-  const auto& scene = session_->current().scene;
   const bool beside = session_->runs() && !session_->isPaused();
-  for (const auto& analysis : frameAnalyses()) {
-    auto* panel = charts_.at(analysis.id);
+  for (const auto& analysis : panelAnalyses()) {
+    auto* panel = charts_.at(QString::fromStdString(analysis.id));
     if (!panel->isVisible()) continue;
     if (analysis.asksQuantity) panel->offerQuantities(grainScalarNames(*now_->shown));
     AnalysisInput input;
     input.frame = now_->shown;
-    input.up = scene ? Vec3(-scene->gravity) : Vec3::Zero();
+    input.frames = session_->current().store;
+    input.scene = session_->current().scene;
     input.quantity = panel->quantity().toStdString();
+    input.knobs = panel->knobs().toStdString();
     analyses_->compute(analysis, std::move(input), restart, beside);
   }
 }
@@ -113,10 +115,10 @@ void MainWindow::takeAnalyses() {
   for (auto& [id, outcome] : analyses_->take()) {
     auto* panel = charts_.at(id);
     panel->setPinName(curveName());
-    if (outcome.curve)
-      panel->setCurve(std::move(*outcome.curve));
+    if (outcome.results && !outcome.results->curves.empty())
+      panel->setCurves(std::move(outcome.results->curves));
     else
-      panel->clear(outcome.fault);
+      panel->clear(outcome.fault.isEmpty() ? "Nothing to draw." : outcome.fault);
   }
 }
 
