@@ -1,9 +1,11 @@
 #include "vis/renderer.h"
 
 #include "sim/base/error.h"
+#include "vis/arrows.h"
 #include "vis/chart_layer.h"
 #include "vis/colour_map.h"
 #include "vis/fit.h"
+#include "vis/force_chains.h"
 #include "vis/gl/external_window.h"
 #include "vis/gl/vtk_messages.h"
 #include "vis/grain_colours.h"
@@ -12,7 +14,8 @@
 #include "vis/overlay.h"
 #include "vis/pick.h"
 #include "vis/read_back.h"
-#include "vis/superellipsoid_layer.h"
+#include "vis/solid_layer.h"
+#include "vis/superellipsoid.h"
 #include "vis/text_style.h"
 #include "vis/ticks.h"
 #include "vis/unhidden.h"
@@ -93,7 +96,7 @@ struct Renderer::Impl {
     addLights(scene);
     scene->AutomaticLightCreationOff();
     scene->AddActor(grains.actor());
-    for (const auto& actors : {shapes.actors(), walls.actors()})
+    for (const auto& actors : {shapes.actors(), marks.actors(), walls.actors()})
       for (vtkActor* actor : actors)
         scene->AddActor(actor);
     overlayActor->GetScene()->AddItem(overlay);
@@ -112,7 +115,8 @@ struct Renderer::Impl {
 
   static std::string glText(unsigned name) { return reinterpret_cast<const char*>(glGetString(name)); }
 
-  void setCamera(const Eigen::AlignedBox3d& box) {
+  /// Everything that is drawn lies between the clipping planes: the box, grains, and `others`.
+  void setCamera(const Eigen::AlignedBox3d& box, const std::vector<Solid>& others) {
     vtkCamera* c = scene->GetActiveCamera();
     c->SetPosition(camera.position.data());
     c->SetFocalPoint(camera.target.data());
@@ -120,7 +124,6 @@ struct Renderer::Impl {
     c->SetViewAngle(camera.viewAngle);
     c->SetParallelProjection(camera.orthographic);
     c->SetParallelScale(camera.orthographicHeight / 2);
-    // Every corner of the box and every drawn grain between the clipping planes.
     const Vec3 forward = axesOf(camera).forward;
     double near = std::numeric_limits<double>::infinity(), far = -near;
     const auto include = [&](const Vec3& p, double r) {
@@ -132,6 +135,8 @@ struct Renderer::Impl {
       include(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)), 0);
     for (std::size_t i = 0; i < visible.position.size(); ++i)
       include(visible.position[i], visible.radius[i]);
+    for (const Solid& solid : others)
+      include(solid.position, surroundingRadius(solid.shape));
     const double depth = std::max(far - near, 1e-9);
     far += 0.01 * depth;
     near -= 0.01 * depth;
@@ -152,18 +157,25 @@ struct Renderer::Impl {
 
   void showGrains(const std::vector<std::size_t>& subset, const std::vector<Rgb>& colours, bool meshes,
                   const PictureGeometry& picture) {
-    std::vector<std::size_t> spheres, others;
-    std::vector<Rgb> sphereColours, otherColours;
+    std::vector<std::size_t> spheres;
+    std::vector<Rgb> sphereColours;
+    std::vector<Solid> others;
     for (std::size_t k = 0; k < subset.size(); ++k) {
       const std::size_t i = subset[k];
       const bool asSphere =
           visible.isSphere(i) ||
           (!meshes && pixelsAcross(visible.position[i], visible.radius[i], picture) < detail.smallestShape);
-      (asSphere ? spheres : others).push_back(i);
-      (asSphere ? sphereColours : otherColours).push_back(colours[k]);
+      if (asSphere) {
+        spheres.push_back(i);
+        sphereColours.push_back(colours[k]);
+      } else {
+        const auto shape = static_cast<std::size_t>(visible.shape[i]);
+        others.push_back({visible.position[i], visible.orientation[i], visible.shapes[shape], colours[k],
+                          visible.shape[i]});
+      }
     }
     grains.show(visible, spheres, sphereColours);
-    shapes.show(visible, others, otherColours, meshes);
+    shapes.show(others, meshes);
     drawn = subset.size();
   }
 
@@ -187,7 +199,7 @@ struct Renderer::Impl {
   vtkSmartPointer<ExternalWindow> window;
   vtkNew<vtkRenderer> scene;
   GrainLayer grains;
-  SuperellipsoidLayer shapes;
+  SolidLayer shapes, marks; ///< grains that are no spheres; contacts, arrows, tracks
   WallLayer walls;
   ChartLayer charts;
   vtkNew<Overlay> overlay;
@@ -242,6 +254,11 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   const GrainColours colours = grainColours(frame, view, d.visible, subset, d.history.get());
   over.legends.clear();
   if (view.legend && view.grains && colours.legend) over.legends.push_back(*colours.legend);
+  std::vector<Solid> marks;
+  const auto chains = addForceChains(marks, frame, view);
+  if (view.legend && chains) over.legends.push_back(*chains);
+  addArrows(marks, frame, view, d.history.get());
+  addTracks(marks, frame, view, d.history.get());
 
   const std::lock_guard lock(vtkTurn());
   d.window->MakeCurrent();
@@ -249,7 +266,8 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   d.scene->SetUseFXAA(finer == 1 && view.maximumGrains == 0); // a moving picture needs speed
   d.showGrains(subset, colours.ofGrain, view.meshes, {d.camera, over.width, over.height});
   d.walls.show(frame, view, d.camera, box, static_cast<float>(finer));
-  d.setCamera(box);
+  d.marks.show(marks, false);
+  d.setCamera(box, marks);
   d.overlay->Modified();
   d.scene->DrawOn();
   d.charts.renderer()->DrawOff();

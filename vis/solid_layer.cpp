@@ -1,4 +1,4 @@
-#include "vis/superellipsoid_layer.h"
+#include "vis/solid_layer.h"
 
 #include "vis/grain_layer.h"
 #include "vis/superellipsoid_mapper.h"
@@ -9,7 +9,7 @@
 
 namespace sandglass::vis {
 
-SuperellipsoidLayer::SuperellipsoidLayer() {
+SolidLayer::SolidLayer() {
   coordinates_->SetNumberOfComponents(3);
   turns_->SetName("turn");
   turns_->SetNumberOfComponents(4);
@@ -48,18 +48,24 @@ SuperellipsoidLayer::SuperellipsoidLayer() {
   }
 }
 
-void SuperellipsoidLayer::setSources(const std::vector<GrainShape>& shapes) {
-  if (shapes == meshed_) return;
-  meshed_ = shapes;
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
+void SolidLayer::setSources(const std::vector<Solid>& solids) {
+  std::vector<GrainShape> wanted; // VTK wants the sources in order and without gaps
+  for (const Solid& solid : solids) {
+    const auto source = static_cast<std::size_t>(solid.source);
+    if (source >= wanted.size()) wanted.resize(source + 1);
+    wanted[source] = solid.shape;
+  }
+  if (wanted == meshed_) return;
+  meshed_ = wanted;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
     constexpr int fineness = 64;
     vtkNew<vtkSuperquadricSource> source;
     source->ToroidalOff();
     source->SetAxisOfSymmetry(2);
     source->SetSize(1);
-    source->SetScale(shapes[k].semiAxes.data());
-    source->SetPhiRoundness(shapes[k].e1);
-    source->SetThetaRoundness(shapes[k].e2);
+    source->SetScale(wanted[k].semiAxes.data());
+    source->SetPhiRoundness(wanted[k].e1);
+    source->SetThetaRoundness(wanted[k].e2);
     source->SetPhiResolution(fineness);
     source->SetThetaResolution(fineness);
     source->Update();
@@ -67,9 +73,8 @@ void SuperellipsoidLayer::setSources(const std::vector<GrainShape>& shapes) {
   }
 }
 
-void SuperellipsoidLayer::show(const VisibleGrains& grains, const std::vector<std::size_t>& subset,
-                               const std::vector<Rgb>& colours, bool asMeshes) {
-  const auto n = static_cast<vtkIdType>(subset.size());
+void SolidLayer::show(const std::vector<Solid>& solids, bool asMeshes) {
+  const auto n = static_cast<vtkIdType>(solids.size());
   cast_->SetVisibility(n > 0 && !asMeshes);
   meshes_->SetVisibility(n > 0 && asMeshes);
   if (n == 0) return;
@@ -81,20 +86,18 @@ void SuperellipsoidLayer::show(const VisibleGrains& grains, const std::vector<st
     array->Modified();
   }
   for (vtkIdType k = 0; k < n; ++k) {
-    const std::size_t i = subset[static_cast<std::size_t>(k)];
-    const auto s = static_cast<std::size_t>(grains.shape[i]);
-    const GrainShape& shape = grains.shapes[s];
-    const Eigen::Quaterniond& q = grains.orientation[i];
+    const Solid& solid = solids[static_cast<std::size_t>(k)];
+    const Eigen::Quaterniond& q = solid.turn;
     turns_->SetTuple4(k, q.w(), q.x(), q.y(), q.z());
-    squareness_->SetTuple2(k, shape.e1, shape.e2);
-    shape_->SetValue(k, static_cast<int>(s));
+    squareness_->SetTuple2(k, solid.shape.e1, solid.shape.e2);
+    shape_->SetValue(k, solid.source);
     for (int axis = 0; axis < 3; ++axis) {
-      coordinates_->SetTypedComponent(k, axis, static_cast<float>(grains.position[i][axis]));
-      axes_->SetTypedComponent(k, axis, static_cast<float>(shape.semiAxes[axis]));
-      colours_->SetTypedComponent(k, axis, colours[static_cast<std::size_t>(k)][axis]);
+      coordinates_->SetTypedComponent(k, axis, static_cast<float>(solid.position[axis]));
+      axes_->SetTypedComponent(k, axis, static_cast<float>(solid.shape.semiAxes[axis]));
+      colours_->SetTypedComponent(k, axis, solid.colour[axis]);
     }
   }
-  if (asMeshes) setSources(grains.shapes);
+  if (asMeshes) setSources(solids);
   points_->GetPoints()->Modified();
   points_->Modified();
 }

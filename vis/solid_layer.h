@@ -1,8 +1,7 @@
 #pragma once
-// Grains that are no spheres, ray-cast or, as the reference of the picture tests, as triangle meshes.
+// Superellipsoids, ray-cast or, as the reference of the picture tests, as triangle meshes.
 
-#include "vis/colour_map.h"
-#include "vis/visible_grains.h"
+#include "vis/solids.h"
 
 #include <vtkActor.h>
 #include <vtkFloatArray.h>
@@ -16,17 +15,15 @@
 
 namespace sandglass::vis {
 
-class SuperellipsoidLayer {
+class SolidLayer {
 public:
-  SuperellipsoidLayer();
+  SolidLayer();
   std::vector<vtkActor*> actors() const { return {cast_, meshes_}; }
 
-  /// Shows `subset` of `grains`, none of them a sphere, in `colours` (one for each of the subset).
-  void show(const VisibleGrains& grains, const std::vector<std::size_t>& subset,
-            const std::vector<Rgb>& colours, bool asMeshes);
+  void show(const std::vector<Solid>& solids, bool asMeshes);
 
 private:
-  void setSources(const std::vector<GrainShape>& shapes);
+  void setSources(const std::vector<Solid>& solids);
 
   vtkNew<vtkActor> cast_, meshes_;
   vtkNew<vtkGlyph3DMapper> glyphs_;
