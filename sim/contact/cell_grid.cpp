@@ -139,7 +139,7 @@ void CellGrid::lay(const Domain& domain, const Bounds& bounds) {
 }
 
 void CellGrid::sort(GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
-                    const std::vector<std::uint8_t>& drop, std::vector<Quad>& scratch) {
+                    const std::vector<std::uint8_t>& drop, AlignedVector<Quad>& scratch) {
   const std::int64_t n = static_cast<std::int64_t>(grains.size());
   const auto stays = [&](std::int64_t i) { return drop.empty() || !drop[i]; };
 

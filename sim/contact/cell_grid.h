@@ -37,7 +37,7 @@ public:
   /// k-th. Grains of one cell keep their order, so what is sorted already stays as it is. Grains whose `drop`
   /// flag is set are left out. `scratch` is memory to work in, made larger if need be; what it held is lost.
   void sort(GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
-            const std::vector<std::uint8_t>& drop, std::vector<Quad>& scratch);
+            const std::vector<std::uint8_t>& drop, AlignedVector<Quad>& scratch);
 
   const std::vector<Level>& levels() const { return levels_; } ///< fine to coarse
   const std::vector<std::int32_t>& order() const { return order_; }

@@ -28,6 +28,8 @@ struct PairType {
   double effectiveShearModulus = 0;  ///< [Pa], 1/G* = (2-nu1)/G1 + (2-nu2)/G2
 };
 
+struct FusedLaws;
+
 struct LawContext {
   std::vector<PairType> types;
 };
@@ -64,6 +66,8 @@ public:
   /// block.history[firstHistory ... firstHistory + historySize() - 1]. Every listed pair is in
   /// the block, also those with a gap; contact laws leave these without force and with zero history.
   virtual void apply(ContactBlock& block, int firstHistory, KernelWidth width) const = 0;
+  /// Adds itself to a combination that may have a loop of its own. A law that does not is never fused.
+  virtual void fuse(FusedLaws&) const {}
   /// The same under mixed precision, for laws that have it.
   virtual void apply(ContactBlockSingle& block, int firstHistory, KernelWidth width) const {}
   virtual bool singlePrecision() const { return false; }

@@ -17,6 +17,7 @@
 // root: anything else would make bits depend on the width.
 
 #include "sim/contact/law.h"
+#include "sim/contact/laws/arithmetic.h"
 
 #include <array>
 #include <bit>
@@ -25,8 +26,6 @@
 /// Over all lanes of a block, also those behind its last contact, whose values nobody reads: a loop of fixed
 /// length needs no remainder, and columns do not overlap.
 #define SANDGLASS_CONTACTS(i) _Pragma("GCC ivdep") for (int i = 0; i < ContactBlock::capacity; ++i)
-
-#define SANDGLASS_LOOP [[gnu::always_inline]] inline
 
 namespace sandglass {
 

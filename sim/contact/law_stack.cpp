@@ -213,6 +213,18 @@ void LawStack::addForces(ContactBlock& block) const {
     entry.law->apply(block, entry.firstHistory, width_);
 }
 
+FusedLaws LawStack::fused() const {
+  FusedLaws laws;
+  for (const Entry& entry : entries_)
+    entry.law->fuse(laws);
+  const bool alone = entries_.size() == 1 && entries_[0].role == LawRole::normal;
+  const bool two =
+      entries_.size() == 2 && entries_[0].role == LawRole::normal && entries_[1].role == LawRole::tangential;
+  if (alone) laws.tangential = FusedLaws::Tangential::none;
+  if (!alone && !two) return {};
+  return laws;
+}
+
 void LawStack::add(std::shared_ptr<const Law> law) {
   append(std::move(law), addedName, LawRole::gap);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The laws of one scene in the order in which a block passes them, and what they need between them.
 
+#include "sim/contact/fused/fused_laws.h"
 #include "sim/contact/law.h"
 #include "sim/scene/scene.h"
 
@@ -23,6 +24,9 @@ public:
   void apply(ContactBlock& block, bool couples) const;
   /// The same onto forces that are there (zero, as kernels leave them).
   void addForces(ContactBlock& block) const;
+
+  /// What the laws are together; `other` where they have no loop of their own.
+  FusedLaws fused() const;
 
   /// Whether a grain has the mass that PairType::uniformMass promised to the laws.
   bool asPromised(int material, double inverseMass) const {

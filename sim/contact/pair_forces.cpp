@@ -35,6 +35,20 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
     if (grains.place[i].w != view_.oneRadius) view_.oneRadius = 0.0;
     if (grains.motion[i].w != view_.oneInverseMass) view_.oneInverseMass = 0.0;
   }
+  pickLoop();
+}
+
+void PairForces::pickLoop() {
+  fused_ = laws_.fused();
+  fusedLoop_ = nullptr;
+  const bool turning = fused_.tangential != FusedLaws::Tangential::none;
+  const bool linear =
+      fused_.normal == FusedLaws::Normal::linear || fused_.normal == FusedLaws::Normal::linearOfMass;
+  if (!view_.oneMaterial || view_.outputQuads != (turning ? 2 : 1) || view_.quads != (turning ? 3 : 2))
+    return;
+  if (!linear && view_.oneRadius == 0.0) return;
+  if (laws_.width() == KernelWidth::avx512) fusedLoop_ = fusedLoopAvx512(fused_);
+  if (laws_.width() == KernelWidth::avx2) fusedLoop_ = fusedLoopAvx2(fused_);
 }
 
 void PairForces::fillBlock(std::int64_t first, int count, double dt, ContactBlock& b,
@@ -46,6 +60,12 @@ void PairForces::fillBlock(std::int64_t first, int count, double dt, ContactBloc
 void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch) const {
   for (std::int64_t first = range.begin; first < range.end; first += ContactBlock::capacity) {
     const int count = static_cast<int>(std::min<std::int64_t>(ContactBlock::capacity, range.end - first));
+    if (fusedLoop_) {
+      if (fusedLoop_(view_, fused_, first, first + count, dt, keepHistory) <= overlapLength_) continue;
+      fillBlock(first, count, dt, scratch.block, scratch.columns); // grains have not moved: who was it?
+      reportOverlaps(first, scratch);
+      continue;
+    }
     fillBlock(first, count, dt, scratch.block, scratch.columns);
     applyLaws(first, scratch);
     reportOverlaps(first, scratch);

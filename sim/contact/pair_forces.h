@@ -63,6 +63,7 @@ public:
   template <class Visit> void visitContacts(double dt, Visit&& visit) const;
 
 private:
+  void pickLoop();
   void fillBlock(std::int64_t first, int count, double dt, ContactBlock& b, PairColumns& columns) const;
   void applyLaws(std::int64_t first, Scratch& scratch) const;
   void leaveRange(std::int64_t first, const double (*before)[ContactBlock::capacity], Scratch& scratch) const;
@@ -70,6 +71,8 @@ private:
 
   const LawStack& laws_;
   const Kernel* kernel_ = nullptr;
+  FusedLaws fused_;
+  FusedLoop fusedLoop_ = nullptr; ///< in place of the laws one by one
   ParticleView view_;
   GrainStore* grains_ = nullptr;
   PairList* list_ = nullptr;

@@ -2,6 +2,7 @@
 // What all widths of the pair kernel share: the loops that the compiler turns into vector code itself. Each
 // file that includes this is compiled for its own processor, so everything here is inlined or private.
 
+#include "sim/contact/contact_geometry.h"
 #include "sim/contact/law_columns.h"
 #include "sim/contact/pair_kernel.h"
 
@@ -17,36 +18,22 @@ namespace {
 /// normal, overlap and relative motion at the contact.
 template <bool turning, class Real>
 inline void finishGeometry(ContactBlockOf<Real>& b, PairColumnsOf<Real>& p, bool radiusArm) {
+  using A = ScalarArithmetic;
   LANES(c) {
-    const Real x = b.nx[c], y = b.ny[c], z = b.nz[c];
-    const Real d = __builtin_sqrt(x * x + y * y + z * z);
-    const Real inverse = 1 / d;
-    const Real nx = x * inverse, ny = y * inverse, nz = z * inverse;
-    const Real dvx = b.vtx[c], dvy = b.vty[c], dvz = b.vtz[c];
-    const Real vn = dvx * nx + dvy * ny + dvz * nz;
-    b.nx[c] = nx;
-    b.ny[c] = ny;
-    b.nz[c] = nz;
-    const Real overlap = p.sum[c] - d;
-    b.overlap[c] = overlap;
-    b.vn[c] = vn;
-    b.vtx[c] = dvx - vn * nx;
-    b.vty[c] = dvy - vn * ny;
-    b.vtz[c] = dvz - vn * nz;
-    p.arm[c] = d;
-  }
-  if constexpr (turning) {
-    // Contact arms over radii: they add up to the distance, so angular momentum is kept.
-    if (radiusArm)
-      LANES(c) p.arm[c] = 1;
-    else
-      LANES(c) p.arm[c] = p.arm[c] / p.sum[c];
-    LANES(c) { // slip: minus (arm_a w_a + arm_b w_b) x n
-      const Real wx = p.rollX[c] * p.arm[c], wy = p.rollY[c] * p.arm[c], wz = p.rollZ[c] * p.arm[c];
-      b.vtx[c] -= wy * b.nz[c] - wz * b.ny[c];
-      b.vty[c] -= wz * b.nx[c] - wx * b.nz[c];
-      b.vtz[c] -= wx * b.ny[c] - wy * b.nx[c];
-    }
+    PairState<Real> pair{{b.nx[c], b.ny[c], b.nz[c]}, p.sum[c], {b.vtx[c], b.vty[c], b.vtz[c]}, {}};
+    if constexpr (turning) pair.roll = {p.rollX[c], p.rollY[c], p.rollZ[c]};
+    Real distance;
+    const Real inverse = inverseDistance<A>(pair.apart, distance);
+    const ContactState<Real> contact = contactState<A, turning>(pair, distance, inverse, radiusArm);
+    b.nx[c] = contact.n.x;
+    b.ny[c] = contact.n.y;
+    b.nz[c] = contact.n.z;
+    b.overlap[c] = contact.overlap;
+    b.vn[c] = contact.vn;
+    b.vtx[c] = contact.slip.x;
+    b.vty[c] = contact.slip.y;
+    b.vtz[c] = contact.slip.z;
+    p.arm[c] = contact.arm;
   }
 }
 
@@ -102,22 +89,26 @@ inline void writeHistory(const ParticleView& v, std::int64_t first, const Contac
   }
 }
 
-/// Force on a, and what turns either grain. The torque on a grain is -arm (n x f_t); divided by its own
-/// radius it is the same for both.
+/// Force on a, and what turns either grain.
 struct OutputColumns {
   alignas(64) double fx[64], fy[64], fz[64], tx[64], ty[64], tz[64];
 };
 
 inline void outputs(const ContactBlock& b, const PairColumns& p, bool turning, OutputColumns& o) {
+  using A = ScalarArithmetic;
   LANES(c) {
-    o.fx[c] = b.normalForce[c] * b.nx[c] + b.ftx[c];
-    o.fy[c] = b.normalForce[c] * b.ny[c] + b.fty[c];
-    o.fz[c] = b.normalForce[c] * b.nz[c] + b.ftz[c];
+    const Vector3<double> n{b.nx[c], b.ny[c], b.nz[c]}, tangential{b.ftx[c], b.fty[c], b.ftz[c]};
+    const Vector3<double> force = plus<A>(tangential, b.normalForce[c], n);
+    o.fx[c] = force.x;
+    o.fy[c] = force.y;
+    o.fz[c] = force.z;
   }
   if (turning) LANES(c) {
-      o.tx[c] = p.arm[c] * (b.nz[c] * b.fty[c] - b.ny[c] * b.ftz[c]);
-      o.ty[c] = p.arm[c] * (b.nx[c] * b.ftz[c] - b.nz[c] * b.ftx[c]);
-      o.tz[c] = p.arm[c] * (b.ny[c] * b.ftx[c] - b.nx[c] * b.fty[c]);
+      const Vector3<double> n{b.nx[c], b.ny[c], b.nz[c]}, tangential{b.ftx[c], b.fty[c], b.ftz[c]};
+      const Vector3<double> torque = contactTorque<A>(n, p.arm[c], tangential);
+      o.tx[c] = torque.x;
+      o.ty[c] = torque.y;
+      o.tz[c] = torque.z;
     }
 }
 

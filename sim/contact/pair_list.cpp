@@ -27,9 +27,9 @@ std::int64_t padded(std::int64_t n) {
 }
 
 /// Room for n values that will all be written: old values are not copied into larger memory.
-template <class T> void makeRoom(std::vector<T>& values, std::int64_t n, std::int64_t spare = 0) {
+template <class Vector> void makeRoom(Vector& values, std::int64_t n, std::int64_t spare = 0) {
   if (values.capacity() < static_cast<std::size_t>(n + spare)) {
-    std::vector<T>().swap(values);
+    Vector().swap(values);
     values.reserve(static_cast<std::size_t>(n + n / 16 + spare));
   }
   values.resize(static_cast<std::size_t>(n));

@@ -102,7 +102,7 @@ public:
   int outputQuads() const { return outputQuads_; }
 
   /// For checkpoints: the arrays that cannot be made again from the positions at listing time.
-  std::vector<double>& historyArray() { return now_.history; }
+  AlignedVector<double>& historyArray() { return now_.history; }
   std::vector<std::uint8_t>& liveArray() { return now_.live; }
 
   std::size_t bytes() const;
@@ -133,7 +133,7 @@ private:
   bool keepsLive_;
   PairListing now_, past_; ///< past_: the listing before, while histories are carried, but for the histories
   std::int64_t size_ = 0;
-  std::vector<Quad> output_;
+  AlignedVector<Quad> output_;
   Range crossing_;
   std::vector<Range> chunkGrains_, chunkPairs_,
       chunkCrossing_; ///< the last: crossing rows of a chunk's grains

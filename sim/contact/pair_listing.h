@@ -1,6 +1,7 @@
 #pragma once
 // The arrays of a pair list, kept together so that one listing can be carried over into the next.
 
+#include "sim/base/aligned.h"
 #include "sim/contact/image_codes.h"
 
 #include <array>
@@ -26,7 +27,7 @@ struct PairListing {
   std::vector<std::int32_t> slots;   ///< slotCount per grain
   std::vector<Extra> extras;
   std::vector<std::int32_t> groupExtras; ///< first of extras of each group of grains; one more at the end
-  std::vector<double> history;
+  AlignedVector<double> history;
   std::vector<std::uint8_t> live;
 
   std::int64_t groups() const { return (grains + group - 1) / group; }

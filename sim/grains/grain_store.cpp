@@ -14,7 +14,7 @@ constexpr std::int64_t grainsPerPiece = 4096;
 /// `extra` values at the end keep their meaning.
 template <class T>
 void permute(std::vector<T>& values, const std::vector<std::int32_t>& order, Parallel& parallel,
-             std::vector<Quad>& scratch, std::size_t extra = 0, std::size_t stride = 1) {
+             AlignedVector<Quad>& scratch, std::size_t extra = 0, std::size_t stride = 1) {
   const std::size_t count = order.size() * stride,
                     quads = (count * sizeof(T) + sizeof(Quad) - 1) / sizeof(Quad);
   if (scratch.size() < quads) scratch.resize(quads);
@@ -41,7 +41,7 @@ void permute(std::vector<T>& values, const std::vector<std::int32_t>& order, Par
 
 /// The same for how far grains may move; positions at listing time are about to be written anew.
 void permuteAllowances(std::vector<Quad>& listed, const std::vector<std::int32_t>& order, Parallel& parallel,
-                       std::vector<Quad>& scratch) {
+                       AlignedVector<Quad>& scratch) {
   const std::size_t quads = order.size() / 4 + 1;
   if (scratch.size() < quads) scratch.resize(quads);
   double* const moved = &scratch[0].x;
@@ -87,7 +87,7 @@ void GrainStore::setRecords(std::vector<Quad> records) {
 }
 
 void GrainStore::reorder(const std::vector<std::int32_t>& order, Parallel& parallel,
-                         std::vector<Quad>& scratch) {
+                         AlignedVector<Quad>& scratch) {
   permute(records_, order, parallel, scratch, phantoms, quadsPerRecord());
   permuteAllowances(listed, order, parallel, scratch);
   permute(id, order, parallel, scratch);

@@ -4,6 +4,7 @@
 // turn. What a scene does not use stays empty: no spin where nothing turns grains, no image counters without
 // periodic directions.
 
+#include "sim/base/aligned.h"
 #include "sim/base/parallel.h"
 #include "sim/base/vec.h"
 
@@ -73,7 +74,7 @@ public:
   /// Keeps the grains listed in `order` (storage indices), in that order.
   /// Of `listed`, only w goes with a grain. `scratch` is memory to work in, made larger if need be; what it
   /// held is lost.
-  void reorder(const std::vector<std::int32_t>& order, Parallel& parallel, std::vector<Quad>& scratch);
+  void reorder(const std::vector<std::int32_t>& order, Parallel& parallel, AlignedVector<Quad>& scratch);
   void resize(std::size_t n);
   std::size_t bytesPerGrain() const;
 

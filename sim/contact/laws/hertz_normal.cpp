@@ -10,7 +10,9 @@
 //                                             factor is in the constant; "kuwabara_kono", gamma = 2/3 A S).
 
 #include "sim/base/error.h"
+#include "sim/contact/fused/fused_laws.h"
 #include "sim/contact/law_loop.h"
+#include "sim/contact/laws/hertz_formula.h"
 #include "sim/contact/laws/law_options.h"
 #include "sim/contact/laws/laws.h"
 #include "sim/contact/restitution.h"
@@ -68,32 +70,31 @@ public:
     return 2.8683 * std::pow(mass * mass / (radius * E * E * speed), 0.2);
   }
 
+  void fuse(FusedLaws& laws) const override {
+    laws.normal = tsuji_    ? FusedLaws::Normal::hertzTsuji
+                  : masses_ ? FusedLaws::Normal::other
+                            : FusedLaws::Normal::hertz;
+    laws.hertz = table_[0];
+  }
+
   unsigned reads() const override {
     return masses_ ? unsigned{effectiveMass} | effectiveRadius : unsigned{effectiveRadius};
   }
 
-  template <class Real> struct Constants {
-    Real modulus = 0;                   ///< E* [Pa]
-    Real tsuji = 0, rate = 0, time = 0; ///< gamma over sqrt(S m), over S m [1/N], over S [s]
-    Real floor = 0;                     ///< the most attractive force allowed [N]
-  };
+  template <class Real> using Constants = HertzConstants<Real>;
   std::vector<Constants<double>> table_;
 
 private:
   template <bool tsuji, bool masses, class Real, class Table>
   SANDGLASS_LOOP static void spring(ContactBlockOf<Real>& b, const Table& table) {
     SANDGLASS_CONTACTS(i) {
-      const auto c = table(i);
-      const Real x = std::max(b.overlap[i], Real(0));
-      const Real S = 2 * c.modulus * std::sqrt(b.effectiveRadius[i] * x);
-      Real gamma = c.time * S;
-      if constexpr (masses) gamma += c.rate * (S * b.effectiveMass[i]);
-      if constexpr (tsuji) gamma += c.tsuji * std::sqrt(S * b.effectiveMass[i]);
-      const Real force = std::max(Real(2.0 / 3.0) * S * x - gamma * b.vn[i], c.floor);
-      b.stiffness[i] += S;
-      b.damping[i] += gamma;
-      b.normalForce[i] += force;
-      b.contactForce[i] += std::max(force, Real(0));
+      const Constants<Real> c = table(i);
+      const auto answer = hertzForce<ScalarArithmetic, tsuji, masses>(
+          c, b.overlap[i], b.vn[i], b.effectiveRadius[i], b.effectiveMass[i]);
+      b.stiffness[i] += answer.stiffness;
+      b.damping[i] += answer.damping;
+      b.normalForce[i] += answer.force;
+      b.contactForce[i] += answer.load;
     }
   }
 

@@ -8,9 +8,11 @@
 // Where all pairs of a type have one reduced mass, gamma is a constant and no mass is read.
 
 #include "sim/base/error.h"
+#include "sim/contact/fused/fused_laws.h"
 #include "sim/contact/law_loop.h"
 #include "sim/contact/laws/law_options.h"
 #include "sim/contact/laws/laws.h"
+#include "sim/contact/laws/linear_formula.h"
 #include "sim/contact/restitution.h"
 
 #include <algorithm>
@@ -43,7 +45,7 @@ public:
           const double l = c.rate > 0.0 ? 0.5 * c.rate * tc : -std::log(p.number("restitution", 1.0));
           c.k = t.referenceMass * (std::numbers::pi * std::numbers::pi + l * l) / (tc * tc);
         }
-        c.gamma = damping(c, t.uniformMass);
+        c.gamma = linearDamping<ScalarArithmetic>(c, t.uniformMass);
         constantDamping_ = constantDamping_ && t.uniformMass > 0.0;
       }
       table_.push_back(c);
@@ -72,31 +74,28 @@ public:
     return std::numbers::pi / std::max(swing, 2.0 * zeta * omega);
   }
 
+  void fuse(FusedLaws& laws) const override {
+    laws.normal = constantDamping_ ? FusedLaws::Normal::linear : FusedLaws::Normal::linearOfMass;
+    laws.linear = table_[0];
+  }
+
   unsigned reads() const override { return constantDamping_ ? 0u : unsigned{effectiveMass}; }
 
-  template <class Real> struct Constants {
-    Real k = 0, zeta = 0, rate = 0, floor = 0; ///< floor [N]: the most attractive force allowed
-    Real gamma = 0;                            ///< [kg/s] where all pairs have one reduced mass
-  };
+  template <class Real> using Constants = LinearConstants<Real>;
   std::vector<Constants<double>> table_;
 
 private:
-  template <class Real> SANDGLASS_LOOP static Real damping(const Constants<Real>& c, Real mass) {
-    return 2 * c.zeta * std::sqrt(c.k * mass) + c.rate * mass;
-  }
-
   template <bool constantDamping, class Real, class Table>
   SANDGLASS_LOOP static void spring(ContactBlockOf<Real>& b, const Table& table) {
     SANDGLASS_CONTACTS(i) {
       const auto c = table(i);
       Real gamma = c.gamma;
-      if constexpr (!constantDamping) gamma = damping(c, b.effectiveMass[i]);
-      Real force = std::max(c.k * b.overlap[i] - gamma * b.vn[i], c.floor);
-      force = b.overlap[i] > 0 ? force : 0;
-      b.stiffness[i] += c.k;
-      b.damping[i] += gamma;
-      b.normalForce[i] += force;
-      b.contactForce[i] += std::max(force, Real(0));
+      if constexpr (!constantDamping) gamma = linearDamping<ScalarArithmetic>(c, b.effectiveMass[i]);
+      const auto answer = linearForce<ScalarArithmetic>(c, gamma, b.overlap[i], b.vn[i]);
+      b.stiffness[i] += answer.stiffness;
+      b.damping[i] += answer.damping;
+      b.normalForce[i] += answer.force;
+      b.contactForce[i] += answer.load;
     }
   }
 

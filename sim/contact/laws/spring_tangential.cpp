@@ -8,9 +8,11 @@
 // normal law is Mindlin's no-slip stiffness 8 G* sqrt(R overlap).
 
 #include "sim/base/error.h"
+#include "sim/contact/fused/fused_laws.h"
 #include "sim/contact/law_loop.h"
 #include "sim/contact/laws/law_options.h"
 #include "sim/contact/laws/laws.h"
+#include "sim/contact/laws/spring_formula.h"
 
 #include <cmath>
 #include <numbers>
@@ -70,80 +72,55 @@ public:
     return std::numbers::pi / table_[type].rate; // infinite without
   }
 
+  void fuse(FusedLaws& laws) const override {
+    laws.tangential = FusedLaws::Tangential::spring;
+    laws.dashpot = dashpot();
+    laws.project = project_.value();
+    laws.radiusArm = fullArm_.value();
+    laws.spring = table_[0];
+  }
+
   unsigned reads() const override { return rated_ && !oneMass_ ? unsigned{effectiveMass} : 0u; }
 
-  template <class Real> struct Constants {
-    Real friction = 0, ratio = 0;
-    Real damping = 0; ///< share of the normal dashpot
-    Real rate = 0;    ///< [1/s] dashpot over reduced mass
-    Real gamma = 0;   ///< [kg/s] rate times mass, where all pairs have one reduced mass
-  };
+  template <class Real> using Constants = SpringConstants<Real>;
   std::vector<Constants<double>> table_;
 
 private:
-  enum class Dashpot { none, coefficient, rate };
+  Dashpot dashpot() const {
+    return !damped_ ? Dashpot::none : rated_ && !oneMass_ ? Dashpot::rate : Dashpot::coefficient;
+  }
 
   template <bool project, class Real, class Table>
   SANDGLASS_LOOP void spring(ContactBlockOf<Real>& b, int first, const Table& table) const {
-    if (!damped_)
+    switch (dashpot()) {
+    case Dashpot::none:
       spring<project, Dashpot::none>(b, first, table);
-    else if (rated_ && !oneMass_)
+      break;
+    case Dashpot::rate:
       spring<project, Dashpot::rate>(b, first, table);
-    else
+      break;
+    case Dashpot::coefficient:
       spring<project, Dashpot::coefficient>(b, first, table);
+      break;
+    }
   }
 
   template <bool project, Dashpot dashpot, class Real, class Table>
   SANDGLASS_LOOP static void spring(ContactBlockOf<Real>& b, int first, const Table& table) {
     Real *sx = b.history[first], *sy = b.history[first + 1], *sz = b.history[first + 2];
     SANDGLASS_CONTACTS(i) {
-      const auto c = table(i);
-      const Real along = sx[i] * b.nx[i] + sy[i] * b.ny[i] + sz[i] * b.nz[i];
-      Real x = sx[i] - along * b.nx[i], y = sy[i] - along * b.ny[i], z = sz[i] - along * b.nz[i];
-      if constexpr (!project) {
-        const Real old2 = sx[i] * sx[i] + sy[i] * sy[i] + sz[i] * sz[i];
-        const Real now2 = x * x + y * y + z * z;
-        const Real keep = now2 > 0 ? std::sqrt(old2 / now2) : Real(1);
-        x *= keep;
-        y *= keep;
-        z *= keep;
-      }
-      x += b.vtx[i] * b.dt;
-      y += b.vty[i] * b.dt;
-      z += b.vtz[i] * b.dt;
-      const Real kt = c.ratio * b.stiffness[i];
-      Real gamma = 0;
-      if constexpr (dashpot == Dashpot::rate) gamma = c.damping * b.damping[i] + c.rate * b.effectiveMass[i];
-      if constexpr (dashpot == Dashpot::coefficient) gamma = c.damping * b.damping[i] + c.gamma;
-      Real fx = -kt * x, fy = -kt * y, fz = -kt * z;
-      if constexpr (dashpot != Dashpot::none) {
-        fx -= gamma * b.vtx[i];
-        fy -= gamma * b.vty[i];
-        fz -= gamma * b.vtz[i];
-      }
-      const Real f2 = fx * fx + fy * fy + fz * fz, limit = c.friction * b.contactForce[i];
-      const bool slides = f2 > limit * limit;
-      const Real scale = slides ? limit / std::sqrt(f2) : Real(1);
-      fx *= scale;
-      fy *= scale;
-      fz *= scale;
-      if constexpr (dashpot == Dashpot::none) {
-        x *= scale;
-        y *= scale;
-        z *= scale;
-      } else {
-        const Real compliance = kt > 0 ? 1 / kt : 0;
-        x = slides ? -(fx + gamma * b.vtx[i]) * compliance : x;
-        y = slides ? -(fy + gamma * b.vty[i]) * compliance : y;
-        z = slides ? -(fz + gamma * b.vtz[i]) * compliance : z;
-      }
-      const bool touches = b.overlap[i] > 0;
-      sx[i] = touches ? x : 0;
-      sy[i] = touches ? y : 0;
-      sz[i] = touches ? z : 0;
-      b.ftx[i] += touches ? fx : 0;
-      b.fty[i] += touches ? fy : 0;
-      b.ftz[i] += touches ? fz : 0;
+      const Constants<Real> c = table(i);
+      Vector3<Real> s{sx[i], sy[i], sz[i]};
+      const NormalForce<Real> normal{0, b.contactForce[i], b.stiffness[i], b.damping[i]};
+      const Vector3<Real> f = springForce<ScalarArithmetic, project, dashpot>(
+          c, Vector3<Real>{b.nx[i], b.ny[i], b.nz[i]}, Vector3<Real>{b.vtx[i], b.vty[i], b.vtz[i]},
+          b.overlap[i], normal, b.effectiveMass[i], b.dt, s);
+      sx[i] = s.x;
+      sy[i] = s.y;
+      sz[i] = s.z;
+      b.ftx[i] += f.x;
+      b.fty[i] += f.y;
+      b.ftz[i] += f.z;
     }
   }
 

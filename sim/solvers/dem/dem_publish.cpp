@@ -185,13 +185,15 @@ double DemSolver::wallWork() const {
 
 namespace {
 
-template <class T> void put(Solver::State& state, const std::string& name, const std::vector<T>& values) {
+template <class T, class Allocator>
+void put(Solver::State& state, const std::string& name, const std::vector<T, Allocator>& values) {
   auto& bytes = state[name];
   bytes.resize(values.size() * sizeof(T));
   if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
 }
 
-template <class T> void get(const Solver::State& state, const std::string& name, std::vector<T>& values) {
+template <class T, class Allocator>
+void get(const Solver::State& state, const std::string& name, std::vector<T, Allocator>& values) {
   const auto it = state.find(name);
   if (it == state.end() || it->second.size() % sizeof(T) != 0)
     throw InputError(fmt::format(

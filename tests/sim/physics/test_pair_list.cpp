@@ -411,7 +411,7 @@ TEST_CASE("the list is the same for any number of threads and any width of instr
         for (std::size_t i = 0; i < store.size(); ++i)
           store.place[i].x += 0.003 * static_cast<double>(store.id[i] % 17 - 8) / 8.0;
         list.build(store, 0.001, parallel);
-        Result r{store.id, {}, list.historyArray()};
+        Result r{store.id, {}, {list.historyArray().begin(), list.historyArray().end()}};
         for (const auto& pair : list.pairs())
           r.numbers.insert(r.numbers.end(), {pair.a, pair.b});
         r.numbers.insert(r.numbers.end(), list.shiftOf().begin(), list.shiftOf().end());
@@ -434,7 +434,7 @@ namespace {
 double testsPerOccupant(const Domain& domain, GrainStore& store, double range) {
   Parallel parallel(2);
   CellGrid grid;
-  std::vector<Quad> scratch;
+  AlignedVector<Quad> scratch;
   grid.sort(store, domain, range, parallel, {}, scratch);
   store.reorder(grid.order(), parallel, scratch);
   const double n = static_cast<double>(store.size());
@@ -489,7 +489,7 @@ TEST_CASE("a sorted grid chains each grain to exactly one cell") {
     store.place[1000 * i].w = 0.2;
   Parallel parallel(3);
   CellGrid grid;
-  std::vector<Quad> scratch;
+  AlignedVector<Quad> scratch;
   grid.sort(store, domain, 0.001, parallel, {}, scratch);
   std::vector<std::int32_t> order = grid.order();
   CHECK(grid.levels().size() > 1);

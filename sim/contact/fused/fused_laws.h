@@ -1,0 +1,38 @@
+#pragma once
+// Combinations of laws that have a loop of their own, from grain records to outputs without columns in
+// between. They give the same bits as the laws one after the other, and exist for the combinations that
+// `bench core` shows to be worth it: one pair of materials, a linear or Hertz normal law, alone or with a
+// tangential spring, and no more.
+
+#include "sim/contact/laws/hertz_formula.h"
+#include "sim/contact/laws/linear_formula.h"
+#include "sim/contact/laws/spring_formula.h"
+#include "sim/contact/pair_kernel.h"
+
+#include <cstdint>
+
+namespace sandglass {
+
+/// What a law says to be fused; a law that says nothing is not.
+struct FusedLaws {
+  enum class Normal { other, linear, linearOfMass, hertz, hertzTsuji };
+  enum class Tangential { other, none, spring };
+  Normal normal = Normal::other;
+  Tangential tangential = Tangential::none;
+  Dashpot dashpot = Dashpot::none;
+  bool project = false, radiusArm = false;
+  LinearConstants<double> linear;
+  HertzConstants<double> hertz;
+  SpringConstants<double> spring;
+};
+
+/// Evaluates pairs first .. last - 1, multiples of 8: outputs and, unless `keepHistory`, histories. Returns
+/// the deepest overlap [m].
+using FusedLoop = double (*)(const ParticleView&, const FusedLaws&, std::int64_t first, std::int64_t last,
+                             double dt, bool keepHistory);
+
+/// Null where the combination has no loop of this width.
+FusedLoop fusedLoopAvx2(const FusedLaws& laws);
+FusedLoop fusedLoopAvx512(const FusedLaws& laws);
+
+} // namespace sandglass

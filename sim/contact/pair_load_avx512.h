@@ -1,0 +1,113 @@
+#pragma once
+// Records of eight pairs to columns, and columns to outputs, by whole loads and transposes. For files that
+// are compiled for AVX-512.
+
+#include "sim/contact/pair_kernel.h"
+
+#include <immintrin.h>
+
+namespace sandglass {
+
+namespace {
+
+/// Two quads in one register.
+inline __m512d both(const double* low, const double* high) {
+  return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(low)), _mm256_load_pd(high), 1);
+}
+
+/// Four registers, each with the quads of two contacts in the order (0,2) (1,3) (4,6) (5,7), to four columns.
+struct Columns {
+  __m512d x, y, z, w;
+};
+inline Columns transpose(__m512d q02, __m512d q13, __m512d q46, __m512d q57) {
+  const __m512d lowA = _mm512_unpacklo_pd(q02, q13), lowB = _mm512_unpacklo_pd(q46, q57);
+  const __m512d highA = _mm512_unpackhi_pd(q02, q13), highB = _mm512_unpackhi_pd(q46, q57);
+  return {_mm512_shuffle_f64x2(lowA, lowB, 0x88), _mm512_shuffle_f64x2(highA, highB, 0x88),
+          _mm512_shuffle_f64x2(lowA, lowB, 0xdd), _mm512_shuffle_f64x2(highA, highB, 0xdd)};
+}
+
+/// The pairs of register k: lower half low[k], upper half high[k].
+constexpr int low[4] = {0, 1, 4, 5}, high[4] = {2, 3, 6, 7};
+
+/// Eight pairs: differences of places with the sum of radii in w, differences of velocities with the sum of
+/// inverse masses, sums of surface speeds, differences of spins.
+struct EightPairs {
+  Columns place, motion, roll, spin;
+};
+
+template <bool turning, bool spin> inline EightPairs loadEight(const ParticleView& v, std::int64_t first) {
+  constexpr std::int64_t stride = turning ? 12 : 8;
+  const double* records = v.records;
+  const __m512d oneButLast = _mm512_set_pd(-1, 1, 1, 1, -1, 1, 1, 1); // sums in w, differences else
+  const std::int32_t* pair = v.pairs + 2 * first;
+  bool shifted = false;
+  if (v.shifts) {
+    std::uint64_t codes;
+    __builtin_memcpy(&codes, v.shiftOf + first, 8);
+    shifted = codes != v.noShift * 0x0101010101010101ull;
+  }
+  __m512d dx[4], dv[4], u[4], w[4];
+  for (int k = 0; k < 4; ++k) {
+    const double *a0 = records + pair[2 * low[k]] * stride, *z0 = records + pair[2 * low[k] + 1] * stride;
+    const double *a1 = records + pair[2 * high[k]] * stride, *z1 = records + pair[2 * high[k] + 1] * stride;
+    __m512d place = both(z0, z1);
+    if (shifted)
+      place += both(v.shifts + 4 * v.shiftOf[first + low[k]], v.shifts + 4 * v.shiftOf[first + high[k]]);
+    dx[k] = _mm512_fnmadd_pd(place, oneButLast, both(a0, a1));
+    dv[k] = _mm512_fnmadd_pd(both(z0 + 4, z1 + 4), oneButLast, both(a0 + 4, a1 + 4));
+    if constexpr (turning) {
+      const __m512d ra = both(a0 + 8, a1 + 8), rz = both(z0 + 8, z1 + 8);
+      u[k] = ra + rz;
+      if constexpr (spin) w[k] = ra * _mm512_permutex_pd(ra, 0xff) - rz * _mm512_permutex_pd(rz, 0xff);
+    }
+  }
+  EightPairs out;
+  out.place = transpose(dx[0], dx[1], dx[2], dx[3]);
+  out.motion = transpose(dv[0], dv[1], dv[2], dv[3]);
+  if constexpr (turning) out.roll = transpose(u[0], u[1], u[2], u[3]);
+  if constexpr (spin) out.spin = transpose(w[0], w[1], w[2], w[3]);
+  return out;
+}
+
+/// Columns x y z of eight contacts to quads (x y z 0), `stride` doubles apart.
+inline void scatter(__m512d x, __m512d y, __m512d z, double* out, std::int64_t stride) {
+  const __m512d zero = _mm512_setzero_pd();
+  const __m512d lowXy = _mm512_unpacklo_pd(x, y),
+                highXy = _mm512_unpackhi_pd(x, y); // contacts 0 2 4 6, 1 3 5 7
+  const __m512d lowZ = _mm512_unpacklo_pd(z, zero), highZ = _mm512_unpackhi_pd(z, zero);
+  const auto put = [&](__m512d xy, __m512d z0, int at) {
+    // Lanes of 128 bits: (xy0 xy2 xy4 xy6), (z0 z2 z4 z6) to two quads each.
+    const __m512d first = _mm512_permutex2var_pd(xy, _mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0), z0);
+    const __m512d second = _mm512_permutex2var_pd(xy, _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4), z0);
+    _mm256_store_pd(out + at * stride, _mm512_castpd512_pd256(first));
+    _mm256_store_pd(out + (at + 2) * stride, _mm512_extractf64x4_pd(first, 1));
+    _mm256_store_pd(out + (at + 4) * stride, _mm512_castpd512_pd256(second));
+    _mm256_store_pd(out + (at + 6) * stride, _mm512_extractf64x4_pd(second, 1));
+  };
+  put(lowXy, lowZ, 0);
+  put(highXy, highZ, 1);
+}
+
+/// Columns of two vectors to pairs of quads that stand side by side, each pair of quads in one store.
+inline void scatterTwo(__m512d x, __m512d y, __m512d z, __m512d tx, __m512d ty, __m512d tz, double* out) {
+  const __m512d zero = _mm512_setzero_pd();
+  const auto put = [&](__m512d xy, __m512d z0, __m512d txy, __m512d tz0, int at) {
+    // Lanes of 128 bits, one contact each: force x y, z 0, torque x y, z 0.
+    const __m512d a = _mm512_shuffle_f64x2(xy, z0, 0x44), b = _mm512_shuffle_f64x2(txy, tz0, 0x44);
+    const __m512d c = _mm512_shuffle_f64x2(xy, z0, 0xee), d = _mm512_shuffle_f64x2(txy, tz0, 0xee);
+    const __m512d first = _mm512_shuffle_f64x2(a, b, 0x88), second = _mm512_shuffle_f64x2(a, b, 0xdd);
+    const __m512d third = _mm512_shuffle_f64x2(c, d, 0x88), fourth = _mm512_shuffle_f64x2(c, d, 0xdd);
+    _mm512_storeu_pd(out + at * 8, first);
+    _mm512_storeu_pd(out + (at + 2) * 8, second);
+    _mm512_storeu_pd(out + (at + 4) * 8, third);
+    _mm512_storeu_pd(out + (at + 6) * 8, fourth);
+  };
+  put(_mm512_unpacklo_pd(x, y), _mm512_unpacklo_pd(z, zero), _mm512_unpacklo_pd(tx, ty),
+      _mm512_unpacklo_pd(tz, zero), 0);
+  put(_mm512_unpackhi_pd(x, y), _mm512_unpackhi_pd(z, zero), _mm512_unpackhi_pd(tx, ty),
+      _mm512_unpackhi_pd(tz, zero), 1);
+}
+
+} // namespace
+
+} // namespace sandglass
