@@ -14,6 +14,7 @@
 #include "vis/overlay.h"
 #include "vis/pick.h"
 #include "vis/read_back.h"
+#include "vis/slice_layer.h"
 #include "vis/solid_layer.h"
 #include "vis/superellipsoid.h"
 #include "vis/text_style.h"
@@ -99,6 +100,7 @@ struct Renderer::Impl {
     for (const auto& actors : {shapes.actors(), marks.actors(), walls.actors()})
       for (vtkActor* actor : actors)
         scene->AddActor(actor);
+    scene->AddActor(slice.actor());
     overlayActor->GetScene()->AddItem(overlay);
     overlayActor->GetScene()->SetRenderer(scene);
     scene->AddActor(overlayActor);
@@ -201,6 +203,7 @@ struct Renderer::Impl {
   GrainLayer grains;
   SolidLayer shapes, marks; ///< grains that are no spheres; contacts, arrows, tracks
   WallLayer walls;
+  SliceLayer slice;
   ChartLayer charts;
   vtkNew<Overlay> overlay;
   vtkNew<vtkContextActor> overlayActor;
@@ -259,6 +262,8 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   if (view.legend && chains) over.legends.push_back(*chains);
   addArrows(marks, frame, view, d.history.get());
   addTracks(marks, frame, view, d.history.get());
+  const auto sliced = d.slice.show(frame, view, d.camera, marks);
+  if (view.legend && sliced) over.legends.push_back(*sliced);
 
   const std::lock_guard lock(vtkTurn());
   d.window->MakeCurrent();

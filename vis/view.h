@@ -93,7 +93,7 @@ struct FieldSlice {
   std::string map = "viridis";
   ColourRange range = ColourRange::frame; ///< ::run is taken as ::fixed once low and high are known
   double low = 0, high = 1, opacity = 1;
-  std::string streamlines; ///< a vector array whose lines are drawn in the plane, or ""
+  std::string streamlines; ///< a vector array whose lines are drawn from points of the plane, or ""
 };
 
 struct View {
