@@ -50,13 +50,14 @@ std::vector<std::vector<int>> fromGaps(const Frame& frame, double gap) {
 
 } // namespace
 
-ContactCounts contactCounts(const Frame& frame, double gap, int least) {
+ContactCounts contactCounts(const Frame& frame, double gap, int least, bool again) {
   const bool known = !frame.contacts.empty();
   const auto partners = known ? fromFrame(frame) : fromGaps(frame, gap);
   ContactCounts counts;
   counts.definition = known ? std::string("contacts of the frame with overlap, walls included")
                             : fmt::format("pairs and walls with a gap of at most {:.3g} d", gap);
-  counts.definition += fmt::format("; rattlers: fewer than {} contacts, taken out again and again", least);
+  counts.definition +=
+      fmt::format("; rattlers: fewer than {} contacts{}", least, again ? ", taken out again and again" : "");
   counts.rattler.assign(frame.size(), 0);
   std::vector<int> left;
   for (const auto& p : partners)

@@ -12,6 +12,7 @@ const std::vector<AnalysisKind>& analysisKinds() {
   static const std::vector<AnalysisKind> kinds{
       pairCorrelationKind(),
       bondAngleKind(),
+      voidsKind(),
       voronoiKind(),
       orderKind(),
       coordinationKind(),

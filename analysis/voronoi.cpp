@@ -32,13 +32,14 @@ struct Workshop {
   voro::voronoicell_neighbor cell;
   std::vector<Candidate> candidates; ///< of the shell that is being searched
   std::vector<Candidate> tried;      ///< all that may have cut; faces are numbered by them
-  std::vector<int> neighbours, orders;
+  std::vector<int> neighbours, corners;
   std::vector<double> areas, normals, vertices;
 };
 
 struct Piece {
   std::vector<VoronoiFace> faces;
   std::vector<Vec3> vertices;
+  std::vector<int> corners;
 };
 
 class Cutter {
@@ -209,6 +210,9 @@ private:
     cell.face_areas(shop.areas);
     cell.normals(shop.normals);
     const std::size_t first = piece.faces.size();
+    std::size_t corner = 0; // voro++ lists each face as its number of corners and then these
+    if (options_.vertices) cell.face_vertices(shop.corners);
+    const std::size_t firstCorner = piece.corners.size();
     for (std::size_t f = 0; f < shop.neighbours.size(); ++f) {
       VoronoiFace face;
       face.area = shop.areas[f] * unit_ * unit_;
@@ -229,6 +233,13 @@ private:
         // The domain's end where a flat wall stands is that wall.
         if (face.other == beyond::bound && wallThere(i, axis, n)) face.other = beyond::wall;
       }
+      if (options_.vertices) {
+        const int corners = shop.corners[corner++];
+        face.firstCorner = static_cast<std::uint32_t>(piece.corners.size() - firstCorner);
+        face.corners = static_cast<std::uint32_t>(corners);
+        for (int k = 0; k < corners; ++k)
+          piece.corners.push_back(shop.corners[corner++]);
+      }
       cells.atWall[i] |= face.other == beyond::wall;
       cells.atBound[i] |= face.other == beyond::bound;
       cells.atSurface[i] |= face.other == beyond::surface;
@@ -240,6 +251,7 @@ private:
               });
     cells.start[i + 1] = piece.faces.size() - first;
     if (!options_.vertices) return;
+    cells.cornerStart[i + 1] = piece.corners.size() - firstCorner;
     shop.cell.vertices(shop.vertices);
     cells.vertexStart[i + 1] = shop.vertices.size() / 3;
     for (std::size_t v = 0; v + 2 < shop.vertices.size(); v += 3)
@@ -281,6 +293,7 @@ VoronoiCells voronoiCells(const Frame& frame, const VoronoiOptions& options) {
   cells.volume.assign(n, 0);
   cells.start.assign(n + 1, 0);
   cells.vertexStart.assign(n + 1, 0);
+  cells.cornerStart.assign(n + 1, 0);
   cells.atWall.assign(n, 0);
   cells.atBound.assign(n, 0);
   cells.atSurface.assign(n, 0);
@@ -300,16 +313,20 @@ VoronoiCells voronoiCells(const Frame& frame, const VoronoiOptions& options) {
   });
   std::partial_sum(cells.start.begin(), cells.start.end(), cells.start.begin());
   std::partial_sum(cells.vertexStart.begin(), cells.vertexStart.end(), cells.vertexStart.begin());
+  std::partial_sum(cells.cornerStart.begin(), cells.cornerStart.end(), cells.cornerStart.begin());
+  cells.corner.resize(cells.cornerStart.back());
   cells.face.resize(cells.start.back());
   cells.vertex.resize(cells.vertexStart.back());
   for (std::size_t b = 0; b < blocks; ++b) {
-    std::size_t face = 0, vertex = 0;
+    std::size_t face = 0, vertex = 0, corner = 0;
     for (std::size_t s = b * block; s < std::min(n, (b + 1) * block); ++s) {
       const std::uint32_t i = cutter.grid().original(s);
       for (std::size_t k = cells.start[i]; k < cells.start[i + 1]; ++k)
         cells.face[k] = pieces[b].faces[face++];
       for (std::size_t k = cells.vertexStart[i]; k < cells.vertexStart[i + 1]; ++k)
         cells.vertex[k] = pieces[b].vertices[vertex++];
+      for (std::size_t k = cells.cornerStart[i]; k < cells.cornerStart[i + 1]; ++k)
+        cells.corner[k] = pieces[b].corners[corner++];
     }
   }
   return cells;

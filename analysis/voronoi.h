@@ -37,9 +37,10 @@ inline constexpr int surface = -3; ///< the free surface
 } // namespace beyond
 
 struct VoronoiFace {
-  int other = beyond::bound;  ///< index of the grain, or what is beyond
-  double area = 0;            ///< [m^2]
-  Vec3 vector = Vec3::Zero(); ///< to the other grain's image; outward unit normal otherwise
+  int other = beyond::bound;                  ///< index of the grain, or what is beyond
+  double area = 0;                            ///< [m^2]
+  Vec3 vector = Vec3::Zero();                 ///< to the other grain's image; outward unit normal otherwise
+  std::uint32_t firstCorner = 0, corners = 0; ///< into the cell's corners(), when vertices were asked for
 };
 
 /// Cells in the order of the Frame's grains. A grain above the surface, behind a wall or with an empty
@@ -51,6 +52,8 @@ struct VoronoiCells {
   std::vector<char> atWall, atBound, atSurface;
   std::vector<Vec3> vertex; ///< [m], of all cells in turn, when asked for
   std::vector<std::size_t> vertexStart;
+  std::vector<int> corner; ///< vertices around each face, as positions among the cell's vertices
+  std::vector<std::size_t> cornerStart;
 
   std::size_t size() const { return volume.size(); }
   std::span<const VoronoiFace> faces(std::size_t i) const {
@@ -58,6 +61,9 @@ struct VoronoiCells {
   }
   std::span<const Vec3> vertices(std::size_t i) const {
     return {vertex.data() + vertexStart[i], vertexStart[i + 1] - vertexStart[i]};
+  }
+  std::span<const int> corners(std::size_t i, const VoronoiFace& f) const {
+    return {corner.data() + cornerStart[i] + f.firstCorner, f.corners};
   }
 };
 

@@ -30,7 +30,8 @@ public:
     const Region region(frame, grainRegion(context_, d));
     const auto& radius = frame.scalar(quantity::radius);
     const ContactCounts counts =
-        contactCounts(frame, knobs_.number("gap"), static_cast<int>(knobs_.integer("least_contacts")));
+        contactCounts(frame, knobs_.number("gap"), static_cast<int>(knobs_.integer("least_contacts")),
+                      knobs_.boolean("again"));
     contactText_ = counts.definition;
     const auto near = countNeighbours(frame.position, frame.domain, cutoff_.distance);
     VoronoiOptions options;
@@ -134,6 +135,8 @@ AnalysisKind coordinationKind() {
           .knobs = {numberKnob("gap", 0.001, 0, 1,
                                "largest gap of a contact, in diameters, where the frame has no contacts"),
                     integerKnob("least_contacts", 4, 1, 20, "a grain with fewer is a rattler"),
+                    switchKnob("again", false,
+                               "whether those left with fewer are rattlers, too, again and again"),
                     numberKnob("cutoff", 0, 0, 100,
                                "first shell up to here, in diameters; 0: first minimum of g(r)")},
           .make = [](const Parameters& knobs, const AnalysisContext& context) -> std::unique_ptr<Analysis> {

@@ -7,6 +7,7 @@ namespace sandglass::analysis {
 
 AnalysisKind pairCorrelationKind();
 AnalysisKind bondAngleKind();
+AnalysisKind voidsKind();
 AnalysisKind voronoiKind();
 AnalysisKind orderKind();
 AnalysisKind coordinationKind();
