@@ -1,6 +1,7 @@
 // H.264 in MP4 through the ffmpeg program, fed with raw RGB through a pipe.
 
 #include "sim/base/error.h"
+#include "vis/picture_record.h"
 #include "vis/renderer.h"
 
 #include <fmt/format.h>
@@ -55,9 +56,7 @@ struct Movie::Impl {
   ~Impl() { finish(); }
 
   void start(double framesPerSecond, const std::map<std::string, std::string>& metadata) {
-    std::string comment;
-    for (const auto& [key, value] : metadata)
-      comment += fmt::format("{}{}: {}", comment.empty() ? "" : "\n", key, value);
+    const std::string comment = recordText(metadata);
     std::vector<std::string> words{"ffmpeg",
                                    "-nostdin",
                                    "-loglevel",

@@ -40,27 +40,49 @@ Image withoutGround(const Image& onBlack, const Image& onWhite) {
   return image;
 }
 
-Image halved(const Image& image) {
-  Image result{image.width / 2, image.height / 2, {}};
+Image reduced(const Image& image, int times) {
+  if (times == 1) return image;
+  Image result{image.width / times, image.height / times, {}};
   result.rgba.resize(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height) * 4);
   const auto row = static_cast<std::size_t>(image.width) * 4;
-  for (int y = 0; y < result.height; ++y)
-    for (int x = 0; x < result.width; ++x) {
-      const std::uint8_t* corner =
-          &image.rgba[2 * static_cast<std::size_t>(y) * row + 8 * static_cast<std::size_t>(x)];
+  const auto n = static_cast<std::size_t>(times);
+  std::uint8_t* out = result.rgba.data();
+  for (std::size_t y = 0; y < static_cast<std::size_t>(result.height); ++y)
+    for (std::size_t x = 0; x < static_cast<std::size_t>(result.width); ++x, out += 4) {
       int sum[4] = {};
-      for (const std::uint8_t* p : {corner, corner + 4, corner + row, corner + row + 4}) {
-        for (int k = 0; k < 3; ++k)
-          sum[k] += p[k] * p[3];
-        sum[3] += p[3];
-      }
-      std::uint8_t* out = &result.rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) +
-                                        static_cast<std::size_t>(x)) *
-                                       4];
+      for (std::size_t dy = 0; dy < n; ++dy)
+        for (std::size_t dx = 0; dx < n; ++dx) {
+          const std::uint8_t* p = &image.rgba[(n * y + dy) * row + 4 * (n * x + dx)];
+          for (int k = 0; k < 3; ++k)
+            sum[k] += p[k] * p[3];
+          sum[3] += p[3];
+        }
       for (int k = 0; k < 3; ++k)
         out[k] = static_cast<std::uint8_t>(sum[3] == 0 ? 0 : (sum[k] + sum[3] / 2) / sum[3]);
-      out[3] = static_cast<std::uint8_t>((sum[3] + 2) / 4);
+      out[3] = static_cast<std::uint8_t>((sum[3] + times * times / 2) / (times * times));
     }
+  return result;
+}
+
+Image beside(const Image& left, const Image& right) {
+  Image result{left.width + right.width, std::min(left.height, right.height), {}};
+  result.rgba.resize(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height) * 4);
+  const auto copy = [&](const Image& image, int offset) {
+    for (int y = 0; y < result.height; ++y)
+      std::memcpy(&result.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) +
+                                    static_cast<std::size_t>(offset))],
+                  &image.rgba[4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width)],
+                  4 * static_cast<std::size_t>(image.width));
+  };
+  copy(left, 0);
+  copy(right, left.width);
+  for (int y = 0; y < result.height; ++y) {
+    std::uint8_t* pixel =
+        &result.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) +
+                          static_cast<std::size_t>(left.width))];
+    std::fill(pixel, pixel + 3, std::uint8_t{128});
+    pixel[3] = 255;
+  }
   return result;
 }
 

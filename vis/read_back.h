@@ -14,7 +14,10 @@ Image readBack(vtkRenderWindow* window);
 /// 1 - opacity. Exact for lines, text and translucent walls alike.
 Image withoutGround(const Image& onBlack, const Image& onWhite);
 
-/// Half as wide and high, by the mean of four pixels, weighed by opacity.
-Image halved(const Image& image);
+/// So many times less wide and high, by the mean of times^2 pixels, weighed by opacity.
+Image reduced(const Image& image, int times);
+
+/// Two pictures of one height side by side, a thin line between them.
+Image beside(const Image& left, const Image& right);
 
 } // namespace sandglass::vis

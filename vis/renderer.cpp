@@ -188,14 +188,14 @@ struct Renderer::Impl {
       throw Error(fmt::format("the picture could not be drawn with {}: {}", window->context().name(), error));
   }
 
-  Image render(const View& view) {
+  Image render(const View& view, int finer) {
     const auto on = [&](const std::array<double, 3>& ground) {
       scene->SetBackground(ground[0], ground[1], ground[2]);
       window->Render();
       return readBack(window);
     };
-    if (!view.transparentBackground) return on(view.background);
-    return halved(withoutGround(on({0, 0, 0}), on({1, 1, 1})));
+    if (!view.transparentBackground) return reduced(on(view.background), finer);
+    return reduced(withoutGround(on({0, 0, 0}), on({1, 1, 1})), finer);
   }
 
   vtkSmartPointer<ExternalWindow> window;
@@ -211,6 +211,13 @@ struct Renderer::Impl {
   std::shared_ptr<const History> history;
   Detail detail;
   std::size_t drawn = 0;
+  /// Of a pair, what was drawn first; the rest is the right half's.
+  struct Half {
+    VisibleGrains visible;
+    Camera camera;
+    int width = 0;
+  };
+  std::optional<Half> leftHalf;
   Camera camera;
   int width = 0, height = 0;
   std::string glStrings;
@@ -230,6 +237,7 @@ Renderer::~Renderer() {
 Image Renderer::draw(const Frame& frame, const View& view) {
   refuseBadSize(view.width, view.height);
   Impl& d = *impl_;
+  d.leftHalf.reset();
   d.width = view.width;
   d.height = view.height;
   d.visible = visibleGrains(frame, view, d.history.get());
@@ -238,7 +246,8 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   OverlayContent& over = d.overlay->content;
   // FXAA smooths edges by their contrast with the ground, which a transparent picture does not have: such a
   // picture is drawn twice as large instead.
-  const int finer = view.transparentBackground ? 2 : 1;
+  const int finer = std::max(view.supersampling, view.transparentBackground ? 2 : 1);
+  refuseBadSize(finer * view.width, finer * view.height);
   over.supersampling = finer;
   over.width = finer * view.width;
   over.height = finer * view.height;
@@ -276,9 +285,27 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   d.overlay->Modified();
   d.scene->DrawOn();
   d.charts.renderer()->DrawOff();
-  Image image = d.render(view);
+  Image image = d.render(view, finer);
   d.release();
   return image;
+}
+
+Image Renderer::drawPair(const Frame& left, const Frame& right, const View& leftView, const View& rightView,
+                         std::shared_ptr<const History> leftHistory,
+                         std::shared_ptr<const History> rightHistory) {
+  View view = leftView;
+  view.width = leftView.width / 2;
+  setHistory(std::move(leftHistory));
+  const Image first = draw(left, view);
+  Impl::Half half{std::move(impl_->visible), impl_->camera, view.width};
+  View other = rightView;
+  other.width = leftView.width - view.width;
+  other.height = leftView.height;
+  other.camera = half.camera;
+  setHistory(std::move(rightHistory));
+  const Image second = draw(right, other);
+  impl_->leftHalf = std::move(half);
+  return beside(first, second);
 }
 
 void Renderer::setHistory(std::shared_ptr<const History> history) {
@@ -314,8 +341,16 @@ Image Renderer::draw(const analysis::Curve& curve, int width, int height) {
 
 PickResult Renderer::pick(int x, int y) const {
   const Impl& d = *impl_;
+  if (d.leftHalf) {
+    const auto& left = *d.leftHalf;
+    if (x >= 0 && y >= 0 && x < left.width && y < d.height)
+      return pickAlong(rayThrough(left.camera, x, y, left.width, d.height), left.visible);
+    x -= left.width;
+  }
   if (x < 0 || y < 0 || x >= d.width || y >= d.height) return {};
-  return pickAlong(rayThrough(d.camera, x, y, d.width, d.height), d.visible);
+  PickResult result = pickAlong(rayThrough(d.camera, x, y, d.width, d.height), d.visible);
+  result.half = d.leftHalf ? 1 : 0;
+  return result;
 }
 
 Camera Renderer::resolvedCamera() const {

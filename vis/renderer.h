@@ -35,6 +35,7 @@ struct Detail {
 struct PickResult {
   std::int64_t grain = -1; ///< id, or -1
   Vec3 point = Vec3::Zero();
+  int half = 0; ///< of a pair: 0 left, 1 right
 };
 
 /// Where the axes of a chart lie in its picture and what they span: from a pixel to values.
@@ -50,6 +51,12 @@ public:
 
   /// Draws frame with view. The same frame, view and back end give the same pixels.
   Image draw(const Frame& frame, const View& view);
+
+  /// Two frames side by side through one camera, each in half of the picture; `left.width` is that of both
+  /// together. pick() answers for both halves. Two runs may each have a history.
+  Image drawPair(const Frame& left, const Frame& right, const View& leftView, const View& rightView,
+                 std::shared_ptr<const History> leftHistory = nullptr,
+                 std::shared_ptr<const History> rightHistory = nullptr);
 
   /// What the next pictures need of other frames (original positions, tracks); null: nothing.
   void setHistory(std::shared_ptr<const History> history);

@@ -1,0 +1,61 @@
+#include "vis/readers/vti_field.h"
+
+#include "sim/base/error.h"
+#include "vis/gl/vtk_messages.h"
+
+#include <fmt/format.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkXMLImageDataReader.h>
+
+namespace sandglass::vis {
+
+FrameField readVtiField(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file))
+    throw InputError(fmt::format("{}: the file cannot be opened; check its name", file.string()));
+  keepVtkMessages();
+  takeVtkError();
+  vtkNew<vtkXMLImageDataReader> reader;
+  if (!reader->CanReadFile(file.c_str()))
+    throw InputError(fmt::format("{}: byte 0: this is no VTK XML file of type ImageData, which a field is",
+                                 file.string()));
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  if (const std::string error = takeVtkError(); !error.empty())
+    throw InputError(fmt::format("{}: it cannot be read as a VTI: {}", file.string(), error));
+  vtkImageData* image = reader->GetOutput();
+  FrameField field;
+  field.name = file.stem().string();
+  for (int k = 0; k < 3; ++k) {
+    field.points[k] = image->GetDimensions()[k];
+    field.spacing[k] = image->GetSpacing()[k];
+    field.origin[k] = image->GetOrigin()[k] + image->GetExtent()[2 * k] * field.spacing[k];
+  }
+  vtkPointData* data = image->GetPointData();
+  for (int a = 0; a < data->GetNumberOfArrays(); ++a) {
+    vtkDataArray* array = data->GetArray(a);
+    if (!array || !array->GetName() || array->GetNumberOfTuples() != static_cast<vtkIdType>(field.size()))
+      continue;
+    if (array->GetNumberOfComponents() == 1) {
+      auto& values = field.scalars[array->GetName()];
+      for (vtkIdType k = 0; k < array->GetNumberOfTuples(); ++k)
+        values.push_back(array->GetTuple1(k));
+    } else if (array->GetNumberOfComponents() == 3) {
+      auto& values = field.vectors[array->GetName()];
+      for (vtkIdType k = 0; k < array->GetNumberOfTuples(); ++k)
+        values.emplace_back(array->GetTuple3(k)[0], array->GetTuple3(k)[1], array->GetTuple3(k)[2]);
+    }
+  }
+  if (field.scalars.empty() && field.vectors.empty())
+    throw InputError(fmt::format(
+        "{}: it holds no scalar or vector at its points, so there is nothing to draw", file.string()));
+  return field;
+}
+
+FrameField frameField(const analysis::Field& field) {
+  return {field.name, field.count, field.origin, field.spacing, field.scalars, field.vectors, field.units};
+}
+
+} // namespace sandglass::vis
