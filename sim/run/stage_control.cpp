@@ -45,7 +45,7 @@ void StageControl::begin() {
   start_ = solver_.step();
   starts_.push_back(solver_.time());
   massAtStart_ = solver_.flow().massDischarged;
-  grainsAtStart_ = static_cast<std::int64_t>(solver_.grains() + recycling_.waiting());
+  grainsAtStart_ = static_cast<std::int64_t>(solver_.freeGrains() + recycling_.waiting());
   recycledAtStart_ = solver_.flow().grainsRecycled;
   std::string walls;
   for (const auto& wall : stage.removeWalls)
@@ -161,7 +161,7 @@ bool StageControl::ended(bool longLook) const {
   if (steps % shortInterval != 0) return false;
   const bool raining = rain_ && !rain_->finished();
   const bool coming = raining || recycling_.waiting() > 0;
-  if (stage.untilEmpty && !coming && solver_.grains() == 0) return true;
+  if (stage.untilEmpty && !coming && solver_.freeGrains() == 0) return true;
   const Flow& flow = solver_.flow();
   if (stage.massDischarged && flow.massDischarged - massAtStart_ >= *stage.massDischarged) return true;
   if (stage.quietTime) {
@@ -184,7 +184,7 @@ bool StageControl::atRest() const {
   if (stage.settledSpeed && !(solver_.greatestSpeed() < *stage.settledSpeed)) return false;
   if (!stage.settledKineticEnergy) return true;
   const Energies energies = solver_.energies();
-  const auto grains = static_cast<double>(std::max<std::size_t>(solver_.grains(), 1));
+  const auto grains = static_cast<double>(std::max<std::size_t>(solver_.freeGrains(), 1));
   return (energies.translational + energies.rotational) / grains < *stage.settledKineticEnergy;
 }
 
@@ -203,7 +203,7 @@ double StageControl::stageFraction() const {
     fraction = std::max(fraction, (solver_.flow().massDischarged - massAtStart_) / *stage.massDischarged);
   if (stage.untilEmpty && grainsAtStart_ > 0)
     fraction =
-        std::max(fraction, 1 - static_cast<double>(solver_.grains()) / static_cast<double>(grainsAtStart_));
+        std::max(fraction, 1 - static_cast<double>(solver_.freeGrains()) / static_cast<double>(grainsAtStart_));
   if (stage.recirculations && grainsAtStart_ > 0)
     fraction = std::max(fraction, static_cast<double>(solver_.flow().grainsRecycled - recycledAtStart_) /
                                       (*stage.recirculations * static_cast<double>(grainsAtStart_)));

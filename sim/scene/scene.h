@@ -57,7 +57,8 @@ struct ContactSpec {
 struct Species {
   std::string name;
   std::string material;
-  Choice size; ///< "single", "uniform", "normal", "lognormal", "table"
+  bool frozen = false; ///< its grains keep the motion that they come with, whatever pushes them
+  Choice size;         ///< "single", "uniform", "normal", "lognormal", "table"
   bool operator==(const Species&) const = default;
 };
 

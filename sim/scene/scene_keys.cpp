@@ -106,12 +106,20 @@ const Keys& contactKeys() {
 }
 
 const Keys& speciesKeys() {
-  static const Keys keys{name, materialName};
+  static const Keys keys{name,
+                         materialName,
+                         {.name = "frozen",
+                          .type = boolean,
+                          .unit = "1",
+                          .description = "whether its grains keep the velocity and spin that their filling "
+                                         "gives them, whatever pushes them, as a rough wall does",
+                          .optional = true}};
   return keys;
 }
 
 const Keys& wallKeys() {
-  return speciesKeys();
+  static const Keys keys{name, materialName};
+  return keys;
 }
 
 const Keys& outletKeys() {

@@ -108,12 +108,14 @@ Parameters store(const ContactSpec& contact) {
 void load(const Parameters& values, Species& species) {
   get(values, "name", species.name);
   get(values, "material", species.material);
+  get(values, "frozen", species.frozen);
 }
 
 Parameters store(const Species& species) {
   Parameters values;
   values.set("name", species.name);
   values.set("material", species.material);
+  if (species.frozen) values.set("frozen", true);
   return values;
 }
 

@@ -51,17 +51,18 @@ public:
   /// A stage of the scene begins now; for walls whose motion waits for one.
   virtual void beginStage(const std::string& name) {}
 
-  /// Runs `steps` steps; 0 brings forces up to date after grains or walls have changed. Throws RunError when the state turned bad (NaN, escape, overlap); then the state is
-  /// not to be used any more.
+  /// Runs `steps` steps; 0 brings forces up to date after grains or walls have changed. Throws RunError when
+  /// the state turned bad (NaN, escape, overlap); then the state is not to be used any more.
   virtual void advance(std::int64_t steps) = 0;
 
   virtual double time() const = 0; ///< [s]
   virtual std::int64_t step() const = 0;
   virtual double stepSize() const = 0; ///< [s]
   virtual std::size_t grains() const = 0;
+  virtual std::size_t freeGrains() const { return grains(); } ///< those that forces can move
   virtual std::int64_t nextId() const = 0;
   virtual bool isFree(const Vec3& position, double radius) const = 0;
-  virtual double greatestSpeed() const = 0; ///< [m/s]
+  virtual double greatestSpeed() const = 0; ///< [m/s] of a grain that forces can move
   /// Grains that have left through outlets that record or recycle since the last call, in order. To be called
   /// after every advance(): the state that save() gives does not hold them.
   virtual std::vector<LeftGrain> takeLeft() = 0;
@@ -72,7 +73,8 @@ public:
   virtual const Flow& flow() const = 0;
   virtual std::vector<GrainSeed> present() const = 0; ///< ascending ids
   virtual std::vector<FrameWall> walls() const = 0;   ///< with forces now
-  /// What moving walls have done to the grains since the run began [J].
+  /// What moving walls and grains that are frozen in a motion have done to the grains since the run began
+  /// [J].
   virtual double wallWork() const { return 0.0; }
 
   /// Everything that decides the future, bit for bit: a named set of byte arrays.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <tuple>
 
 namespace sandglass {
@@ -55,7 +56,7 @@ FramePtr DemSolver::frame() const {
   scalars(quantity::radius, [&](std::int32_t i) { return grains_.place[i].w; });
   if (scene_.species.size() > 1 || wants(quantity::species))
     scalars(quantity::species, [&](std::int32_t i) { return static_cast<double>(grains_.species[i]); });
-  if (wants(quantity::mass)) scalars(quantity::mass, [&](std::int32_t i) { return grains_.mass(i); });
+  if (wants(quantity::mass)) scalars(quantity::mass, [&](std::int32_t i) { return massOf(i); });
   for (std::size_t q = 0; q < grains_.quantityNames.size(); ++q)
     scalars(grains_.quantityNames[q].c_str(), [&](std::int32_t i) { return grains_.quantities[q][i]; });
   if (wants(quantity::velocity))
@@ -63,8 +64,10 @@ FramePtr DemSolver::frame() const {
   if (wants(quantity::spin) && grains_.turning)
     vectors(quantity::spin, [&](std::int32_t i) { return full.spin[i]; });
   if (wants(quantity::force))
-    vectors(quantity::force,
-            [&](std::int32_t i) { return Vec3(full.force[i].vec() + grains_.mass(i) * gravity_); });
+    vectors(quantity::force, [&](std::int32_t i) {
+      if (frozen_.holds(grains_.species[i])) return full.force[i].vec(); // nothing pulls it down
+      return Vec3(full.force[i].vec() + grains_.mass(i) * gravity_);
+    });
   if (wants(quantity::residenceTime))
     scalars(quantity::residenceTime,
             [&](std::int32_t i) { return time() - lives_.enteredAt(grains_.id[i]); });
@@ -121,6 +124,7 @@ Energies DemSolver::energies() const {
   const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
   const FullStep& full = fullStep();
   for (std::int32_t i : idOrder()) {
+    if (frozen_.holds(grains_.species[i])) continue; // nothing can change what it has
     const double m = grains_.mass(i);
     Vec3 x = grains_.place[i].vec();
     if (grains_.imaged)
@@ -134,6 +138,13 @@ Energies DemSolver::energies() const {
     e.elastic = pairForces_.storedEnergy(dt_) + across_.storedEnergy(grains_, dt_) +
                 wallContacts_.storedEnergy(grains_, walls_);
   return e;
+}
+
+double DemSolver::massOf(std::int32_t i) const {
+  if (!frozen_.holds(grains_.species[i])) return grains_.mass(i);
+  const double r = grains_.place[i].w;
+  return 4.0 / 3.0 * std::numbers::pi * r * r * r *
+         scene_.material(scene_.species[grains_.species[i]].material).density;
 }
 
 GrainSeed DemSolver::seedOf(std::int32_t i) const {
@@ -159,7 +170,7 @@ std::vector<GrainSeed> DemSolver::present() const {
 double DemSolver::greatestSpeed() const {
   double square = 0;
   for (std::size_t i = 0; i < grains_.size(); ++i)
-    square = std::max(square, grains_.motion[i].vec().squaredNorm());
+    if (!frozen_.holds(grains_.species[i])) square = std::max(square, grains_.motion[i].vec().squaredNorm());
   return std::sqrt(square);
 }
 
@@ -177,8 +188,9 @@ std::vector<FrameWall> DemSolver::walls() const {
 }
 
 double DemSolver::wallWork() const {
-  double sum = 0.0;
-  for (const WallTally& tally : fullStep().tallies)
+  const FullStep& full = fullStep();
+  double sum = frozen_.any() ? frozen_.workWith(full.force, full.torque, step_ == 0 ? 0.0 : dt_) : 0.0;
+  for (const WallTally& tally : full.tallies)
     sum += tally.work;
   return sum;
 }
@@ -237,6 +249,7 @@ Solver::State DemSolver::save() {
   for (const SolverWall& w : walls_)
     walls.push_back({w.active, w.marks, w.allowance, w.listedTime, w.tally});
   put(s, "walls.state", walls);
+  if (frozen_.any()) put(s, "frozen", frozen_.state());
   put(s, "lives", lives_.lives());
   put(s, "entries", lives_.entries());
   put(s, "gravity", std::vector<double>{gravity_.x(), gravity_.y(), gravity_.z()});
@@ -299,6 +312,12 @@ void DemSolver::load(const State& s) {
   restore("groups.moved", loop_.moved());
   restore("walls.history", wallContacts_.historyArray());
   restore("walls.feature", wallContacts_.featureArray());
+  frozen_.capture(grains_);
+  if (frozen_.any()) {
+    std::vector<double> frozen;
+    get(s, "frozen", frozen);
+    frozen_.setState(frozen);
+  }
   get(s, "lives", lives_.lives());
   get(s, "entries", lives_.entries());
   std::vector<double> gravity;

@@ -44,8 +44,8 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
     : scene_(scene), laws_(stackWith(scene, added)), parallel_(options.threads),
       list_(scene.domain, laws_.historySize(), laws_.outputQuads(), laws_.hasEvents()), pairForces_(laws_),
       wallContacts_(laws_), across_(laws_, scene.sector()),
-      loop_(grains_, list_, pairForces_, wallContacts_, across_, parallel_), gravity_(scene.gravity),
-      lives_(scene) {
+      loop_(grains_, list_, pairForces_, wallContacts_, across_, parallel_), frozen_(scene),
+      gravity_(scene.gravity), lives_(scene) {
   if (across_.used() && laws_.hasEvents())
     throw InputError("a wedge cannot be simulated with laws that move quantities from grain to grain across "
                      "a gap; simulate the whole circle");
@@ -92,7 +92,8 @@ void DemSolver::add(const std::vector<GrainSeed>& seeds) {
     const double mass = 4.0 / 3.0 * std::numbers::pi * s.radius * s.radius * s.radius *
                         scene_.material(species.material).density;
     grains_.place[i] = {s.position.x(), s.position.y(), s.position.z(), s.radius};
-    grains_.motion[i] = {s.velocity.x(), s.velocity.y(), s.velocity.z(), 1.0 / mass};
+    grains_.motion[i] = {s.velocity.x(), s.velocity.y(), s.velocity.z(),
+                         frozen_.holds(s.species) ? FrozenGrains::inverseMass : 1.0 / mass};
     if (grains_.turning)
       grains_.roll[i] = {s.radius * s.spin.x(), s.radius * s.spin.y(), s.radius * s.spin.z(), 1.0 / s.radius};
     grains_.id[i] = s.id;
@@ -138,6 +139,7 @@ void DemSolver::setGravity(const Vec3& gravity) {
     v = {v.x + kick.x(), v.y + kick.y(), v.z + kick.z(), v.w};
   }
   gravity_ = gravity;
+  frozen_.hold(grains_);
   atFullStep_.valid = false;
 }
 
@@ -170,6 +172,7 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
   allowTravel(walls_, dt_, skin_, meanDiameter_, wallRadius_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
   loop_.bind();
+  frozen_.capture(grains_);
   atFullStep_.valid = false;
   ++rebuilds_;
 }
@@ -187,6 +190,11 @@ const DemSolver::FullStep& DemSolver::fullStep() const {
     full.velocity[i] = grains_.motion[i].vec() + kick * full.force[i].vec() + 0.5 * dt_ * gravity_;
     if (grains_.turning)
       full.spin[i] = grains_.spin(i) + 0.5 * dt_ / grains_.inertia(i) * full.torque[i].vec();
+  }
+  for (std::size_t i = 0; i < n && frozen_.any(); ++i) {
+    if (!frozen_.holds(grains_.species[i])) continue;
+    full.velocity[i] = grains_.motion[i].vec();
+    if (grains_.turning) full.spin[i] = grains_.spin(i);
   }
   full.valid = true;
   return full;
@@ -248,6 +256,7 @@ void DemSolver::prepare() {
       const Vec3 rolled = u.vec() - 0.5 * dt_ * grains_.place[i].w / grains_.inertia(i) * torque[i].vec();
       grains_.roll[i] = {rolled.x(), rolled.y(), rolled.z(), u.w};
     }
+    frozen_.hold(grains_);
   }
   atFullStep_.valid = false;
 }
@@ -287,6 +296,7 @@ void DemSolver::stepOnce() {
   if (report.bad) reportBadMotion();
   if (!events.empty()) applyEvents(events);
   if (drag_ > 0) damp();
+  if (frozen_.any()) frozen_.advance(grains_, loop_, dt_, step_ == 0 ? 0.0 : dt_);
   ++step_;
   placeWalls(walls_, time(), dt_);
   atFullStep_.valid = false;
@@ -348,7 +358,7 @@ bool DemSolver::discharge() {
   for (std::int32_t i : idOrder()) {
     if (!drop[i]) continue;
     ++flow_.grainsDischarged;
-    flow_.massDischarged += grains_.mass(i);
+    flow_.massDischarged += massOf(i);
     const Vec3 x = grains_.place[i].vec();
     const auto through = std::find_if(scene_.outlets.begin(), scene_.outlets.end(), [&](const OutletSpec& o) {
       return (x - o.point).dot(o.normal.normalized()) > 0.0; // the first that it is beyond

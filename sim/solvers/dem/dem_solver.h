@@ -11,6 +11,7 @@
 #include "sim/contact/sector_contacts.h"
 #include "sim/contact/wall_contacts.h"
 #include "sim/grains/grain_lives.h"
+#include "sim/solvers/dem/frozen_grains.h"
 #include "sim/solvers/dem/particle_loop.h"
 #include "sim/solvers/solver.h"
 
@@ -38,6 +39,7 @@ public:
   std::int64_t step() const override { return step_; }
   double stepSize() const override { return dt_; }
   std::size_t grains() const override { return grains_.size(); }
+  std::size_t freeGrains() const override { return grains_.size() - frozen_.count(); }
   std::int64_t nextId() const override { return nextId_; }
   bool isFree(const Vec3& position, double radius) const override;
   double greatestSpeed() const override;
@@ -86,6 +88,7 @@ private:
   [[noreturn]] void reportBadMotion() const;
   void checkEscapes() const;
   std::vector<std::int32_t> idOrder() const;
+  double massOf(std::int32_t i) const; ///< [kg] of its material, also when it is frozen
   GrainSeed seedOf(std::int32_t i) const;
   Vec3 wrapped(Vec3 x) const;
 
@@ -98,6 +101,7 @@ private:
   mutable WallContacts wallContacts_;
   mutable SectorContacts across_; ///< the faces of a wedge
   mutable ParticleLoop loop_;
+  FrozenGrains frozen_;
   mutable FullStep atFullStep_;
   mutable std::vector<SolverWall> walls_;
   double wallRadius_ = 0; ///< [m] no grain is further from a moving wall's reference

@@ -85,6 +85,8 @@ Forecast forecast(const Scene& scene) {
   tell(laws.range() > 0.0, "forces across a gap", fmt::format("lists reach {:.3g} m further", laws.range()));
   tell(periodic, "periodic directions", "12 bytes a grain, 1 byte a pair");
   tell(scene.wedge.has_value(), "a wedge with images across its faces", "paid by the grains near a face");
+  tell(std::any_of(scene.species.begin(), scene.species.end(), [](const Species& s) { return s.frozen; }),
+       "frozen grains", "a look at each of them a step");
   tell(!scene.walls.empty(), "walls", "paid by the grains that are near one");
   tell(fastestWall(scene) > 0.0, "moving walls", "grains near them are listed a little further out");
   tell(!scene.outlets.empty(), "outlets", "one look at each grain every 50 steps");

@@ -110,6 +110,20 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
   return {late, bad};
 }
 
+void ParticleLoop::contactForce(std::int64_t grain, std::int64_t& g, GroupSums& sums, Vec3& force,
+                                Vec3& torque) const {
+  if (grain / group != g) {
+    g = grain / group;
+    sumGroup(g, std::min<std::int64_t>((g + 1) * group, static_cast<std::int64_t>(grains_.size())), sums);
+  }
+  const double* s = sums.at[grain - g * group];
+  force = {s[0], s[1], s[2]};
+  torque = Vec3::Zero();
+  if (!grains_.turning) return;
+  torque = grains_.place[grain].w * Vec3(s[4], s[5], s[6]);
+  if (list_.outputQuads() > 2) torque += Vec3(s[8], s[9], s[10]);
+}
+
 void ParticleLoop::forces(double dt, std::vector<Quad>& force, std::vector<Quad>& torque) {
   force.assign(grains_.size(), {});
   torque.assign(grains_.turning ? grains_.size() : 0, {});

@@ -37,6 +37,11 @@ public:
   /// storage order; gravity left out. Pair outputs are overwritten, nothing else.
   void forces(double dt, std::vector<Quad>& force, std::vector<Quad>& torque);
 
+  /// Force and torque of contacts in the step just done on a grain [N, N m], until the list is made anew.
+  /// `sums` keeps those of its group from call to call; `group` is -1 at first.
+  void contactForce(std::int64_t grain, std::int64_t& group, GroupSums& sums, Vec3& force,
+                    Vec3& torque) const;
+
   /// For checkpoints: how far each group may have moved since it was listed [m].
   std::vector<double>& moved() { return moved_; }
 

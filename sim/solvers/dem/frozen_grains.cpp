@@ -1,0 +1,69 @@
+#include "sim/solvers/dem/frozen_grains.h"
+
+#include "sim/base/error.h"
+#include "sim/solvers/dem/particle_loop.h"
+
+namespace sandglass {
+
+FrozenGrains::FrozenGrains(const Scene& scene) {
+  for (const Species& species : scene.species) {
+    frozen_.push_back(species.frozen);
+    any_ = any_ || species.frozen;
+  }
+}
+
+void FrozenGrains::capture(const GrainStore& grains) {
+  held_.clear();
+  for (std::size_t i = 0; any_ && i < grains.size(); ++i)
+    if (frozen_[grains.species[i]])
+      held_.push_back({static_cast<std::int32_t>(i), grains.place[i], grains.motion[i],
+                       grains.turning ? grains.roll[i] : Quad{}});
+}
+
+void FrozenGrains::hold(GrainStore& grains) const {
+  for (const Held& h : held_) {
+    grains.place[h.grain] = h.place;
+    grains.motion[h.grain] = h.motion;
+    if (grains.turning) grains.roll[h.grain] = h.roll;
+  }
+}
+
+void FrozenGrains::advance(GrainStore& grains, const ParticleLoop& loop, double dt, double worked) {
+  double power = 0.0;
+  std::int64_t group = -1;
+  GroupSums sums;
+  Vec3 force, torque;
+  for (const Held& h : held_) {
+    if (!h.moves()) continue;
+    loop.contactForce(h.grain, group, sums, force, torque);
+    power -= force.dot(h.motion.vec()) + torque.dot(h.roll.w * h.roll.vec());
+  }
+  work_ += 0.5 * worked * (power_ + power);
+  power_ = power;
+  for (Held& h : held_) {
+    h.place.x += dt * h.motion.x;
+    h.place.y += dt * h.motion.y;
+    h.place.z += dt * h.motion.z;
+  }
+  hold(grains);
+}
+
+double FrozenGrains::workWith(const std::vector<Quad>& force, const std::vector<Quad>& torque,
+                              double worked) const {
+  double power = 0.0;
+  for (const Held& h : held_) {
+    power -= force[h.grain].vec().dot(h.motion.vec());
+    if (!torque.empty()) power -= torque[h.grain].vec().dot(h.roll.w * h.roll.vec());
+  }
+  return work_ + 0.5 * worked * (power_ + power);
+}
+
+void FrozenGrains::setState(const std::vector<double>& state) {
+  if (state.size() != 2)
+    throw InputError(
+        "the checkpoint's 'frozen' does not fit the scene; it belongs to another scene or version");
+  work_ = state[0];
+  power_ = state[1];
+}
+
+} // namespace sandglass
