@@ -70,10 +70,25 @@ void setRange(vis::Colouring& colouring, const std::string& text) {
   }
 }
 
+struct Size {
+  int width, height;
+};
+
+Size sizeOf(const std::string& text) {
+  if (text == "720p") return {1280, 720};
+  if (text == "1080p") return {1920, 1080};
+  if (text == "4k") return {3840, 2160};
+  const auto pair = parsedPair<int>(text, 'x');
+  if (!pair || !pair->first || !pair->second)
+    throw InputError(
+        fmt::format("--size {}: write WIDTHxHEIGHT in pixels, such as 1280x720, or 720p, 1080p, 4k", text));
+  return {*pair->first, *pair->second};
+}
+
 } // namespace
 
-vis::View viewOf(const RenderOptions& options) {
-  vis::View view = options.viewFile.empty() ? vis::View{} : vis::readView(options.viewFile);
+vis::View viewOf(const RenderOptions& options, const vis::View& base) {
+  vis::View view = options.viewFile.empty() ? base : vis::readView(options.viewFile);
   std::vector<std::string> faults;
   const auto attempt = [&](auto apply) {
     try {
@@ -90,13 +105,22 @@ vis::View viewOf(const RenderOptions& options) {
   if (!options.range.empty()) attempt([&] { setRange(view.colouring, options.range); });
   if (!options.size.empty())
     attempt([&] {
-      const auto pair = parsedPair<int>(options.size, 'x');
-      if (!pair || !pair->first || !pair->second)
-        throw InputError(
-            fmt::format("--size {}: write WIDTHxHEIGHT in pixels, such as 1280x720", options.size));
-      view.width = *pair->first;
-      view.height = *pair->second;
+      const auto [width, height] = sizeOf(options.size);
+      view.width = width;
+      view.height = height;
     });
+  if (options.supersample > 0) view.supersampling = options.supersample;
+  if (!options.select.empty()) view.selection = {options.select, vis::Selection::Use::only};
+  if (!options.arrows.empty()) view.arrows.vector = options.arrows;
+  if (options.forceChains) {
+    view.forceChains.shown = true;
+    constexpr double small = 0.25; // grains that let the chains be seen
+    if (options.viewFile.empty()) view.grainScale = small;
+  }
+  if (!options.field.empty()) {
+    view.slice.shown = true;
+    if (!options.slice.empty()) view.slice.quantity = options.slice;
+  }
   for (const auto& clip : options.clips)
     attempt([&] { view.clips.push_back(clipOf(clip)); });
   // The same checks as for a file: size, preset, map.

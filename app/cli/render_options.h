@@ -11,18 +11,21 @@
 namespace sandglass::cli {
 
 struct RenderOptions {
-  std::vector<std::string> sources;
-  std::string folder, movie, reference;
-  std::string viewFile, camera, colour, map, range, size, frames, backend = "auto";
+  std::vector<std::string> sources, sideBySide;
+  std::string folder, movie, reference, field;
+  std::string viewFile, camera, colour, map, range, size, frames, select, arrows, slice, backend = "auto";
   std::vector<std::string> clips;
   std::optional<double> at; ///< [s]
   int every = 1;
   double framesPerSecond = 25, threshold = 0.001;
-  bool transparent = false, orthographic = false;
+  double turn = 0;     ///< [deg]
+  int supersample = 0; ///< 0: the view's
+  bool transparent = false, orthographic = false, forceChains = false;
 };
 
-/// The view file with the options laid over it. Throws InputError for every option that makes no sense.
-vis::View viewOf(const RenderOptions& options);
+/// The view file, or `base` where there is none, with the options laid over it. Throws InputError for every
+/// option that makes no sense.
+vis::View viewOf(const RenderOptions& options, const vis::View& base = {});
 
 /// Indices of the frames to draw, out of `times`. Throws InputError when none is left.
 std::vector<std::size_t> chosenFrames(const RenderOptions& options, const std::vector<double>& times,

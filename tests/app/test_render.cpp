@@ -3,6 +3,7 @@
 #include "sim/io/run_folder.h"
 #include "tests/app/program.h"
 #include "tests/sim/temporary_folder.h"
+#include "vis/picture_record.h"
 #include "vis/renderer.h"
 
 #include <catch2/catch.hpp>
@@ -121,6 +122,96 @@ TEST_CASE("render makes a film with all its frames") {
   CHECK(frames == 15);
 }
 
+TEST_CASE("a picture is drawn again from itself, also when the run has moved along with it") {
+  const TemporaryFolder folder("render-again");
+  REQUIRE(program("run " SANDGLASS_SOURCE_DIR "/sample_runs/two_grains/scene.toml -o " +
+                  (folder / "a/run").string())
+              .code == 0);
+  REQUIRE(program("render " + (folder / "a/run").string() +
+                  " --frames 12 --colour x --map cividis --size 160x90 -o " +
+                  (folder / "a/pictures").string())
+              .code == 0);
+  const fs::path picture = folder / "a/pictures/frame_00012.png";
+  const vis::Image first = vis::readPng(picture);
+  REQUIRE(program("render " + picture.string() + " -o " + (folder / "again").string()).code == 0);
+  CHECK((vis::readPng(folder / "again/frame_00012.png").rgba == first.rgba));
+  fs::rename(folder / "a", folder / "b");
+  const fs::path moved = folder / "b/pictures/frame_00012.png";
+  REQUIRE(program("render " + moved.string() + " --map grey -o " + (folder / "grey").string()).code == 0);
+  CHECK((vis::readPng(folder / "grey/frame_00012.png").rgba != first.rgba)); // options go before its view
+  fs::remove_all(folder / "b/run");
+  const Result missing = program("render " + moved.string() + " -o " + (folder / "none").string());
+  CHECK(missing.code == 2);
+  CHECK_THAT(missing.text, Catch::Contains("a/run, is missing") && Catch::Contains("hash"));
+}
+
+TEST_CASE("a film says which run and view it shows") {
+  const TemporaryFolder folder("render-record");
+  const fs::path film = folder / "film.mp4";
+  REQUIRE(program(on("--frames 3:5 --colour x --range 0:2 --movie " + film.string())).code == 0);
+  const vis::PictureRecord record = vis::readRecord(film);
+  CHECK(record.source == run());
+  CHECK(record.frame == 3);
+  CHECK(record.view.colouring.quantity == "x");
+  CHECK(record.view.colouring.high == 2);
+  CHECK(record.text.at("scene") == openFrames(run())->load(3)->provenance.at("scene"));
+  CHECK(vis::viewFromPicture(film).width == 160);
+}
+
+TEST_CASE("patterns, several runs and pairs") {
+  const TemporaryFolder folder("render-many");
+  for (const char* name : {"a/run", "b/run"}) {
+    fs::create_directories((folder / name).parent_path());
+    fs::copy(run(), folder / name, fs::copy_options::recursive);
+  }
+  const std::string pattern = " '" + folder.path().string() + "/*/run'",
+                    out = " -o " + (folder / "out").string();
+  REQUIRE(program("render" + pattern + " --frames 4 --size 160x90" + out).code == 0);
+  CHECK(fs::exists(folder / "out/run_00004.png"));
+  CHECK(fs::exists(folder / "out/run-2_00004.png"));
+  const Result pair = program("render --side-by-side " + (folder / "a/run").string() + " " +
+                              (folder / "b/run").string() + " --frames 40 --size 320x90" + out);
+  INFO(pair.text);
+  REQUIRE(pair.code == 0);
+  std::map<std::string, std::string> text;
+  const vis::Image both = vis::readPng(folder / "out/pair_00040.png", &text);
+  CHECK(both.width == 320);
+  CHECK(text["right_source"] == (folder / "b/run").string());
+  int unlike = 0; // one run beside itself: the halves are alike but for the line between them
+  for (int y = 0; y < 90; ++y)
+    for (int x = 1; x < 160; ++x)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t row = static_cast<std::size_t>(y) * 320;
+        unlike += both.rgba[4 * (row + static_cast<std::size_t>(x)) + k] !=
+                  both.rgba[4 * (row + 160 + static_cast<std::size_t>(x)) + k];
+      }
+  CHECK(unlike == 0);
+  CHECK(program("render '" + (folder / "no*").string() + "'" + out).code == 2);
+  CHECK(program("render" + out).code == 2);
+}
+
+TEST_CASE("supersampling, 4k, selections and a camera that goes round") {
+  const TemporaryFolder folder("render-more");
+  const std::string out = " -o " + (folder / "out").string();
+  REQUIRE(program(on("--frames 9 --supersample 3" + out)).code == 0);
+  const vis::Image fine = vis::readPng(folder / "out/frame_00009.png");
+  CHECK(fine.width == 160);
+  REQUIRE(program(on("--frames 9" + out)).code == 0);
+  const vis::Image plain = vis::readPng(folder / "out/frame_00009.png");
+  CHECK((fine.rgba != plain.rgba));
+  CHECK(vis::difference(fine, plain, 64) < 0.02); // only edges
+  REQUIRE(program(on("--frames 9 --select 'x > 1000'" + out)).code == 0);
+  CHECK(vis::difference(vis::readPng(folder / "out/frame_00009.png"), plain) > 0.01); // no grain left
+  REQUIRE(program(on("--frames 9:10 --turn 90 --camera front" + out)).code == 0);
+  const vis::View a = vis::viewFromPicture(folder / "out/frame_00009.png"),
+                  b = vis::viewFromPicture(folder / "out/frame_00010.png");
+  CHECK(b.camera.preset.empty());
+  const Vec3 before = a.camera.position - a.camera.target, after = b.camera.position - b.camera.target;
+  CHECK(before.dot(after) == Approx(0).margin(1e-9 * before.squaredNorm()));
+  REQUIRE(program("render " + run().string() + " --frames 9 --size 4k" + out).code == 0);
+  CHECK(vis::readPng(folder / "out/frame_00009.png").width == 3840);
+}
+
 TEST_CASE("what render cannot do is a sentence and exit code 2") {
   const TemporaryFolder folder("render-refusals");
   std::ofstream(folder / "view.toml") << "[camera]\npreset = \"side\"\nzoom = 2\n";
@@ -136,6 +227,10 @@ TEST_CASE("what render cannot do is a sentence and exit code 2") {
       {"-o OUT --range 2:1", "--range 2:1: write frame, run, or LOW:HIGH"},
       {"-o OUT --size 12", "--size 12: write WIDTHxHEIGHT"},
       {"-o OUT --size 12x99999", "it must be a whole number from 16 to 16384"},
+      {"-o OUT --select 'z >'", "the selection \"z >\" is no expression"},
+      {"-o OUT --arrows torque", "no vector 'torque'"},
+      {"-o OUT --field none.vti", "none.vti: the file cannot be opened"},
+      {"-o OUT --colour original.w", "there is no quantity 'original.w'"},
       {"-o OUT --frames 1000:", "has the frames 0 to 60"},
       {"-o OUT --frames a:b", "--frames a:b: write A:B"},
       {"-o OUT --colour charge", "there is no quantity 'charge'"},
