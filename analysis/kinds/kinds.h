@@ -11,5 +11,6 @@ AnalysisKind voidsKind();
 AnalysisKind voronoiKind();
 AnalysisKind orderKind();
 AnalysisKind coordinationKind();
+AnalysisKind fieldsKind();
 
 } // namespace sandglass::analysis
