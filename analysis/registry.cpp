@@ -16,6 +16,7 @@ const std::vector<AnalysisKind>& analysisKinds() {
       voronoiKind(),
       orderKind(),
       coordinationKind(),
+      stateKind(),
       fieldsKind(),
   };
   return kinds;

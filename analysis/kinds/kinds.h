@@ -11,6 +11,7 @@ AnalysisKind voidsKind();
 AnalysisKind voronoiKind();
 AnalysisKind orderKind();
 AnalysisKind coordinationKind();
+AnalysisKind stateKind();
 AnalysisKind fieldsKind();
 
 } // namespace sandglass::analysis
