@@ -188,7 +188,9 @@ void Overlay::paintAxes(vtkContext2D* painter, const CameraAxes& axes) const {
           py[] = {y + tip * dy, y + half * dx, y - half * dx};
     painter->GetPen()->SetLineType(vtkPen::NO_PEN);
     painter->DrawPolygon(px, py, 3);
-    write(painter, content, x + 15 * s * dx, y + 15 * s * dy, names[a.axis], textSize - 1, Side::centre);
+    // Below ten pixels a z loses its slant.
+    const float size = std::max(textSize - 1, 10 * static_cast<float>(content.supersampling) / s);
+    write(painter, content, x + 15 * s * dx, y + 15 * s * dy, names[a.axis], size, Side::centre);
   }
 }
 

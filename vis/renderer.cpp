@@ -280,6 +280,8 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   d.scene->SetUseFXAA(finer == 1 && view.maximumGrains == 0); // a moving picture needs speed
   d.showGrains(subset, colours.ofGrain, view.meshes, {d.camera, over.width, over.height});
   d.walls.show(frame, view, d.camera, box, static_cast<float>(finer));
+  constexpr double thinnest = 0.6; // [pixel]
+  thicken(marks, thinnest * heightAtTarget(d.camera) / over.height);
   d.marks.show(marks, false);
   d.setCamera(box, marks);
   d.overlay->Modified();

@@ -136,9 +136,9 @@ vtkSmartPointer<vtkLookupTable> tableOf(const Legend& legend) {
   return table;
 }
 
-/// Lines from some 150 points spread over the surface, a third of the field's extent each way.
+/// Lines from some 60 points spread over the surface, a third of the field's extent each way.
 void addStreamlines(std::vector<Solid>& lines, vtkImageData* image, vtkPolyData* surface, const View& view) {
-  constexpr vtkIdType wanted = 150;
+  constexpr vtkIdType wanted = 60;
   const vtkIdType every = std::max<vtkIdType>(1, surface->GetNumberOfPoints() / wanted);
   vtkNew<vtkPoints> places;
   for (vtkIdType k = every / 2; k < surface->GetNumberOfPoints(); k += every)

@@ -38,4 +38,9 @@ void addArrow(std::vector<Solid>& solids, const Vec3& from, const Vec3& along, d
   solids.push_back(head);
 }
 
+void thicken(std::vector<Solid>& solids, double radius) {
+  for (Solid& solid : solids)
+    solid.shape.semiAxes.head<2>() = solid.shape.semiAxes.head<2>().cwiseMax(radius);
+}
+
 } // namespace sandglass::vis

@@ -26,4 +26,7 @@ void addLine(std::vector<Solid>& solids, const std::vector<Vec3>& points, double
 void addArrow(std::vector<Solid>& solids, const Vec3& from, const Vec3& along, double radius,
               const Rgb& colour);
 
+/// Makes what is thinner than `radius` as thick: a line of less than a pixel falls apart into dots.
+void thicken(std::vector<Solid>& solids, double radius);
+
 } // namespace sandglass::vis

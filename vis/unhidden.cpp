@@ -27,6 +27,7 @@ struct Seen {
 struct Outline {
   Vec3 place = Vec3::Zero(); ///< of its middle, from the eye [m]
   Vec3 reach = Vec3::Zero(); ///< half its box
+  double radius = 0;         ///< of the sphere around it
   /// Its inner ellipse in the plane through the middle: xx x^2 + 2 xy x y + yy y^2 <= 1.
   double xx = 0, xy = 0, yy = 0;
 };
@@ -42,6 +43,7 @@ public:
   Outline operator()(std::size_t k) const {
     const Vec3 d = grains_.position[k] - eye_;
     Outline o;
+    o.radius = grains_.radius[k];
     o.place = Vec3(d.dot(axes_.right), d.dot(axes_.up), d.dot(axes_.forward));
     if (grains_.isSphere(k)) {
       o.reach.setConstant(grains_.radius[k]);
@@ -80,17 +82,24 @@ public:
         depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                std::numeric_limits<float>::infinity()) {}
 
+  /// Whether a pixel centre in the grain's rectangle and in the circle around it is open.
   bool mayBeSeen(const Outline& o) const {
     const double front = o.place.z() - o.reach.z(), back = o.place.z() + o.reach.z();
     if (!flat_ && back <= 0) return false;
-    if (!flat_ && front <= 1e-6 * back) return true; // around the eye
+    if (!flat_ && (front <= 1e-6 * back || o.place.z() <= o.radius)) return true; // around the eye
     const auto [left, right] = across(o.place.x(), o.reach.x(), front, back);
     const auto [bottom, top] = across(o.place.y(), o.reach.y(), front, back);
-    const int x0 = std::max(0, pixel(left, width_)), x1 = std::min(width_ - 1, pixel(right, width_));
-    const int y0 = std::max(0, pixel(bottom, height_)), y1 = std::min(height_ - 1, pixel(top, height_));
-    for (int y = y0; y <= y1; ++y)
+    const Circle circle = around(o);
+    const auto [y0, y1] = centres(std::max(bottom + height_ / 2.0, circle.y - circle.radius),
+                                  std::min(top + height_ / 2.0, circle.y + circle.radius), height_);
+    for (int y = y0; y <= y1; ++y) {
+      const double dy = y + 0.5 - circle.y;
+      const double half = std::sqrt(std::max(0.0, circle.radius * circle.radius - dy * dy));
+      const auto [x0, x1] = centres(std::max(left + width_ / 2.0, circle.x - half),
+                                    std::min(right + width_ / 2.0, circle.x + half), width_);
       for (int x = x0; x <= x1; ++x)
         if (depth_[at(x, y)] > front) return true;
+    }
     return false;
   }
 
@@ -102,7 +111,6 @@ public:
     // (-xy y + w) / xx, w^2 = xx - y^2 (xx yy - xy^2); its highest y is sqrt(xx / (xx yy - xy^2)).
     const double xx = o.xx / (scale * scale), xy = o.xy / (scale * scale), yy = o.yy / (scale * scale);
     const double determinant = xx * yy - xy * xy;
-    constexpr double margin = 0.1; // [pixel] for rounding in the rasteriser
     const double highest = std::sqrt(xx / determinant) - margin;
     if (!(highest > 0)) return;
     const double middleX = o.place.x() * scale + width_ / 2.0;
@@ -131,13 +139,33 @@ private:
     const double near = scale_ / front, far = scale_ / back;
     return {(x - reach) * (x < reach ? near : far), (x + reach) * (x > -reach ? near : far)};
   }
-  static int pixel(double fromMiddle, int size) {
-    constexpr double most = 1e8;
-    return static_cast<int>(std::floor(std::clamp(fromMiddle, -most, most) + size / 2.0));
+  struct Circle {
+    double x, y, radius; ///< [pixel]
+  };
+  /// Holds the picture of the surrounding sphere. For a point c + d of it, |d| <= r, the picture lies at
+  /// (d_xy - d_z c_xy / c_z) / (c_z + d_z) from that of c, at most r sqrt(1 + |c_xy|^2 / c_z^2) / (c_z - r).
+  Circle around(const Outline& o) const {
+    const double z = o.place.z();
+    const double scale = flat_ ? scale_ : scale_ / z;
+    const double stretch =
+        flat_ ? 1 : std::hypot(1, o.place.head<2>().norm() / z) * z / std::max(z - o.radius, 1e-9 * z);
+    return {o.place.x() * scale + width_ / 2.0, o.place.y() * scale + height_ / 2.0,
+            o.radius * scale * stretch + margin};
+  }
+  struct Pixels {
+    int first, last;
+  };
+  /// Pixels whose centres lie between two places, the margin included.
+  static Pixels centres(double low, double high, int size) {
+    const double most = size;
+    return {static_cast<int>(std::ceil(std::clamp(low - margin - 0.5, 0.0, most))),
+            static_cast<int>(std::floor(std::clamp(high + margin - 0.5, -1.0, most - 1)))};
   }
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
+
+  static constexpr double margin = 0.02; ///< [pixel] for rounding in the rasteriser
 
   int width_, height_;
   double scale_;

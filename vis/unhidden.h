@@ -4,8 +4,8 @@
 //
 // Grains are taken from front to back. One is hidden when every pixel that it might touch is covered by a
 // grain whose middle lies in front of its foremost point. What a grain covers is the section of an ellipsoid
-// inside it with the plane through its middle, across the line of sight; what it might touch is the rectangle
-// around it. Both hold under perspective: the section lies in the grain, and its picture is the same ellipse,
+// inside it with the plane through its middle, across the line of sight; what it might touch lies in the
+// rectangle and in the circle around it. Both hold under perspective: the section lies in the grain, and its picture is the same ellipse,
 // only smaller.
 
 #include "vis/visible_grains.h"

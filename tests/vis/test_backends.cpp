@@ -1,5 +1,6 @@
 // One picture, whatever draws it: OSMesa or EGL, main thread or another, first renderer or fifth.
 
+#include "tests/vis/sample_fields.h"
 #include "tests/vis/sample_frames.h"
 #include "vis/renderer.h"
 
@@ -39,6 +40,39 @@ TEST_CASE("OSMesa and EGL draw the same pixels, on any thread, one renderer afte
     CHECK(Renderer(backend).draw(test::hopper(4e-3), smallView()).rgba == first.rgba);
     CHECK(drawnInThread(backend).rgba == first.rgba);
   }
+}
+
+TEST_CASE("OSMesa and EGL draw the same shapes, chains, arrows, slices and cuts") {
+  Frame frame = test::cube(5);
+  frame.shapes = {{Vec3(4e-3, 3e-3, 2e-3), 0.3, 0.7}};
+  RandomStream random(2, RandomPurpose::test, 0);
+  for (std::int64_t i = 0; i < 125; ++i) {
+    frame.scalars[quantity::shape].push_back(static_cast<double>(i % 2 - 1)); // every other one a sphere
+    frame.orientation.push_back(
+        Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), 1).normalized());
+    if (i > 0)
+      frame.contacts.push_back({i - 1,
+                                i,
+                                -1,
+                                {0, 0, 0},
+                                frame.position[static_cast<std::size_t>(i)],
+                                Vec3::UnitZ(),
+                                random.uniform() * Vec3::UnitZ(),
+                                0});
+  }
+  frame.walls = test::hopper(8e-3).walls;
+  frame.fields = {test::swirl(9, 1)};
+  View view = smallView();
+  view.grainScale = 0.8;
+  view.forceChains.shown = view.slice.shown = true;
+  view.slice.streamlines = view.arrows.vector = "velocity";
+  view.clipCylinders = {{Vec3(0.02, 0.02, 0), Vec3::UnitZ(), 0.01, false}};
+  view.selection = {"x > 0.01", Selection::Use::highlight};
+  const Image a = Renderer(GlBackend::osmesa).draw(frame, view),
+              b = Renderer(GlBackend::egl).draw(frame, view);
+  CHECK((a.rgba == b.rgba));
+  view.forceChains.shown = false;
+  CHECK((Renderer(GlBackend::osmesa).draw(frame, view).rgba != a.rgba)); // what is compared is there
 }
 
 TEST_CASE("two renderers take turns on one thread") {

@@ -2,9 +2,11 @@
 // SANDGLASS_NEW_REFERENCES=1 writes the references anew: look at them before committing.
 
 #include "tests/vis/pixels.h"
+#include "tests/vis/sample_fields.h"
 #include "tests/vis/sample_frames.h"
 #include "vis/chart.h"
 #include "vis/difference_picture.h"
+#include "vis/history.h"
 
 #include <catch2/catch.hpp>
 
@@ -52,6 +54,102 @@ Frame sparseHopper() {
   return hopper(3.2e-3);
 }
 
+/// The six shapes of a table, turned so that their faces are seen.
+Frame shapeTable() {
+  Frame f;
+  f.shapes = {{Vec3(1.0, 0.6, 0.4), 1, 1},    {Vec3(0.9, 0.7, 0.5), 0.2, 0.2},
+              {Vec3(0.6, 0.6, 1.0), 0.15, 1}, {Vec3(0.8, 0.8, 0.5), 1, 0.3},
+              {Vec3(1, 0.8, 0.9), 2, 2},      {Vec3(0.9, 0.5, 0.7), 1.6, 0.5}};
+  RandomStream random(21, RandomPurpose::test, 0);
+  for (int k = 0; k < 24; ++k) {
+    f.id.push_back(k);
+    f.position.emplace_back(2.1 * (k % 6), 0, 2.1 * (k / 6));
+    f.orientation.push_back(
+        Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized());
+    f.scalars[quantity::shape].push_back(k % 6);
+  }
+  return f;
+}
+
+View shapesView() {
+  View view = small();
+  view.colouring = {.quantity = "shape", .map = "discrete"};
+  view.camera.preset = "front";
+  view.box = false;
+  return view;
+}
+
+View clippedView() {
+  View view = small();
+  view.camera.preset = "iso";
+  view.wallOpacity = 0.5;
+  view.colouring.quantity = "species";
+  view.clipBoxes = {{Vec3(-1, -1, 0.005), Vec3(0.03, 1, 0.07), true}};
+  view.clipCylinders = {{Vec3(0, 0, 0.04), Vec3::UnitY(), 0.015, false}};
+  return view;
+}
+
+/// A cube of touching grains, forces growing downwards.
+Frame pressedBlock() {
+  constexpr int side = 7;
+  constexpr double spacing = 1e-2;
+  Frame f = cube(side, spacing, spacing / 2);
+  RandomStream random(5, RandomPurpose::test, 0);
+  for (std::int64_t a = 0; a < side * side * side; ++a) {
+    const std::array<std::int64_t, 3> place{a / (side * side), a / side % side, a % side}; // x, y, z
+    const std::array<std::int64_t, 3> stride{side * side, side, 1};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (place[k] + 1 == side) continue;
+      const Vec3 normal = -Vec3::Unit(static_cast<Eigen::Index>(k));
+      const double force =
+          1e-3 * static_cast<double>(side - place[2]) * std::pow(random.uniform(), 4.0) * (k == 2 ? 2 : 1);
+      f.contacts.push_back({a,
+                            a + stride[k],
+                            -1,
+                            {0, 0, 0},
+                            f.position[static_cast<std::size_t>(a)] - spacing / 2 * normal,
+                            normal,
+                            force * normal,
+                            0});
+    }
+  }
+  return f;
+}
+
+View chainsView() {
+  View view = small();
+  view.colouring.quantity = "";
+  view.grainScale = 0.3;
+  view.forceChains = {.shown = true, .width = 8e-3, .minimum = 0.1};
+  view.arrows.vector = "velocity";
+  view.arrows.maximum = 40;
+  view.arrows.colour = {0.1, 0.3, 0.7};
+  view.tracks.grains = {3};
+  return view;
+}
+
+/// Grain 3 comes in a spiral.
+std::shared_ptr<const History> wander(Frame frame) {
+  auto history = std::make_shared<History>();
+  const Vec3 end = frame.position[3];
+  for (int k = 0; k <= 40; ++k) {
+    frame.time = 0.01 * (k - 40);
+    const double r = 1e-3 * (40 - k);
+    frame.position[3] = end + Vec3(-r, r * std::cos(0.4 * k), r * std::sin(0.4 * k));
+    history->addTracks(frame, {3});
+  }
+  return history;
+}
+
+View fieldView() {
+  View view = small();
+  view.slice.shown = true;
+  view.slice.quantity = "velocity";
+  view.slice.streamlines = "velocity";
+  view.camera.preset = "front";
+  return view;
+}
+
 } // namespace
 
 TEST_CASE("picture: a slice of a hopper from the front") {
@@ -77,6 +175,56 @@ TEST_CASE("picture: species on dark ground, without perspective, from the top") 
   CHECK(fromReference(Renderer().draw(sparseHopper(), view), "species_top_dark") <= threshold);
 }
 
+TEST_CASE("picture: superellipsoids of six shapes") {
+  CHECK(fromReference(Renderer().draw(shapeTable(), shapesView()), "superellipsoids") <= threshold);
+}
+
+TEST_CASE("picture: walls with edges, cut by a box and a cylinder together with the grains") {
+  CHECK(fromReference(Renderer().draw(sparseHopper(), clippedView()), "hopper_cut") <= threshold);
+}
+
+TEST_CASE("picture: force chains, arrows and a track") {
+  Renderer renderer;
+  const Frame frame = pressedBlock();
+  renderer.setHistory(wander(frame));
+  CHECK(fromReference(renderer.draw(frame, chainsView()), "force_chains") <= threshold);
+}
+
+TEST_CASE("picture: a slice of a field with streamlines") {
+  Frame frame;
+  frame.fields = {swirl(25, 1)};
+  CHECK(fromReference(Renderer().draw(frame, fieldView()), "field_slice") <= threshold);
+}
+
+TEST_CASE("picture: legends of the three range modes, of bands and of classes") {
+  Renderer renderer;
+  // One frame; its speeds lie between 0 and 0.59 m/s, the run's between 0 and 1.2, the fixed range is 0.1 to
+  // 0.3: the grains and the numbers at the bar differ.
+  View view = hopperView();
+  view.colouring.range = ColourRange::frame;
+  CHECK(fromReference(renderer.draw(sparseHopper(), view), "legend_frame") <= threshold);
+  view.colouring.range = ColourRange::run;
+  view.colouring.low = 0;
+  view.colouring.high = 1.2;
+  CHECK(fromReference(renderer.draw(sparseHopper(), view), "legend_run") <= threshold);
+  view.colouring.range = ColourRange::fixed;
+  view.colouring.low = 0.1;
+  view.colouring.high = 0.3;
+  CHECK(fromReference(renderer.draw(sparseHopper(), view), "legend_fixed") <= threshold);
+  view = hopperView();
+  view.colouring.quantity = "z";
+  view.colouring.bands = 6;
+  view.colouring.map = "viridis";
+  CHECK(fromReference(renderer.draw(sparseHopper(), view), "legend_bands") <= threshold);
+  view = hopperView();
+  view.colouring.quantity = "layer";
+  view.colouring.map = "discrete";
+  Frame frame = sparseHopper();
+  for (const Vec3& p : frame.position)
+    frame.scalars["layer"].push_back(std::floor(p.z() / 0.02));
+  CHECK(fromReference(renderer.draw(frame, view), "legend_classes") <= threshold);
+}
+
 TEST_CASE("picture: a chart with error bars, a band and marks") {
   analysis::Curve curve;
   curve.title = "Two estimates";
@@ -99,24 +247,89 @@ TEST_CASE("picture: a chart with error bars, a band and marks") {
   CHECK(fromReference(Renderer().draw(curve, 640, 400), "chart") <= threshold);
 }
 
-TEST_CASE("planted faults are seen: larger grains, a missing wall, another map, no legend, another camera") {
+namespace {
+
+struct Fault {
+  const char* what;
+  Frame frame;
+  View view;
+};
+
+void checkFaults(const std::string& reference, const std::vector<Fault>& faults,
+                 const std::shared_ptr<const History>& history = nullptr) {
   Renderer renderer;
+  const Image right = readPng(fs::path(SANDGLASS_SOURCE_DIR) / "tests" / "baselines" / (reference + ".png"));
+  renderer.setHistory(history);
+  for (const auto& [what, frame, view] : faults) {
+    INFO(reference << ": " << what);
+    CHECK(difference(renderer.draw(frame, view), right) > 3 * threshold);
+  }
+}
+
+/// The view with something else about it.
+template <class Change> View with(View view, Change change) {
+  change(view);
+  return view;
+}
+template <class Change> Frame with(Frame frame, Change change) {
+  change(frame);
+  return frame;
+}
+
+} // namespace
+
+TEST_CASE("planted faults in a hopper are seen") {
   const Frame right = sparseHopper();
-  Frame larger = right;
-  for (double& r : larger.scalars[quantity::radius])
-    r *= 1.05;
-  Frame open = right;
-  open.walls.clear();
-  View otherMap = hopperView(), noLegend = hopperView(), otherCamera = hopperView();
-  otherMap.colouring.map = "viridis";
-  noLegend.legend = false;
-  otherCamera.camera.viewAngle = 29;
-  const fs::path file = fs::path(SANDGLASS_SOURCE_DIR) / "tests" / "baselines" / "hopper_front.png";
-  const Image reference = readPng(file);
-  CHECK(difference(renderer.draw(larger, hopperView()), reference) > 3 * threshold);
-  CHECK(difference(renderer.draw(open, hopperView()), reference) > 3 * threshold);
-  for (const View& view : {otherMap, noLegend, otherCamera})
-    CHECK(difference(renderer.draw(right, view), reference) > 3 * threshold);
+  const auto larger = [](Frame& f) {
+    for (double& r : f.scalars[quantity::radius])
+      r *= 1.05;
+  };
+  const auto open = [](Frame& f) { f.walls.clear(); };
+  checkFaults("hopper_front",
+              {{"radii 5 % larger", with(right, larger), hopperView()},
+               {"a missing wall", with(right, open), hopperView()},
+               {"another map", right, with(hopperView(), [](View& v) { v.colouring.map = "viridis"; })},
+               {"no edges", right, with(hopperView(), [](View& v) { v.wallEdges = false; })},
+               {"no legend", right, with(hopperView(), [](View& v) { v.legend = false; })},
+               {"another angle", right, with(hopperView(), [](View& v) { v.camera.viewAngle = 29; })}});
+  checkFaults("hopper_cut",
+              {{"radii 5 % larger", with(right, larger), clippedView()},
+               {"a missing wall", with(right, open), clippedView()},
+               {"no cylinder", right, with(clippedView(), [](View& v) { v.clipCylinders.clear(); })},
+               {"a box 5 % larger", right,
+                with(clippedView(), [](View& v) { v.clipBoxes[0].upper.z() += 0.0035; })}});
+}
+
+TEST_CASE("planted faults in shapes, chains and slices are seen") {
+  const Frame shapes = shapeTable();
+  checkFaults(
+      "superellipsoids",
+      {{"axes 5 % larger",
+        with(shapes,
+             [](Frame& f) {
+               for (GrainShape& s : f.shapes)
+                 s.semiAxes *= 1.05;
+             }),
+        shapesView()},
+       {"rounder", with(shapes, [](Frame& f) { f.shapes[1].e1 = f.shapes[1].e2 = 0.4; }), shapesView()},
+       {"not turned", with(shapes, [](Frame& f) { f.orientation.clear(); }), shapesView()}});
+  const Frame block = pressedBlock();
+  checkFaults("force_chains",
+              {{"no chains", block, with(chainsView(), [](View& v) { v.forceChains.shown = false; })},
+               {"thicker", block, with(chainsView(), [](View& v) { v.forceChains.width *= 1.25; })},
+               {"no arrows", block, with(chainsView(), [](View& v) { v.arrows.vector = ""; })},
+               {"no track", block, with(chainsView(), [](View& v) { v.tracks.grains = {}; })},
+               {"another map", block, with(chainsView(), [](View& v) { v.forceChains.map = "viridis"; })}},
+              wander(block));
+  Frame field;
+  field.fields = {swirl(25, 1)};
+  checkFaults("field_slice",
+              {{"another array", field, with(fieldView(), [](View& v) { v.slice.quantity = "ramp"; })},
+               {"no lines", field, with(fieldView(), [](View& v) { v.slice.streamlines = ""; })},
+               {"another map", field, with(fieldView(), [](View& v) { v.slice.map = "cividis"; })}});
+  const Frame hopper = sparseHopper();
+  checkFaults("legend_fixed", {{"range of the frame", hopper, hopperView()}});
+  checkFaults("legend_run", {{"range of the frame", hopper, hopperView()}});
 }
 
 TEST_CASE("OSMesa and EGL draw the same chart") {
