@@ -15,6 +15,11 @@ CellGrid gridFor(std::span<const Vec3> points, const Domain& domain, double reac
   return CellGrid(points, domain, reach / 4);
 }
 
+/// Each bin is counted in so many places in turn: a counter that is raised again before its last value has
+/// left the processor makes the loop wait, and a third of all points fall into one bin, that of the too far
+/// ones.
+constexpr std::size_t lanes = 4;
+
 /// Distances from one centre to a run of points, as bin numbers; too far ones fall into bin `bins`.
 class Binner {
 public:
@@ -38,7 +43,7 @@ public:
         bin[j] = static_cast<int>(q < bins_ ? q : bins_);
       }
       for (std::size_t j = 0; j < count; ++j)
-        ++histogram[bin[j]];
+        ++histogram[lanes * static_cast<std::size_t>(bin[j]) + j % lanes];
     }
   }
   std::size_t operator()(std::size_t j, double cx, double cy, double cz) const {
@@ -75,7 +80,7 @@ std::vector<std::uint64_t> countPairs(std::span<const Vec3> points, const std::v
   // When every point is a reference, each pair is visited from one side and counted twice.
   const bool half = reference.empty();
   tbb::enumerable_thread_specific<std::vector<std::uint64_t>> partial(
-      [&] { return std::vector<std::uint64_t>(bins + 1); });
+      [&] { return std::vector<std::uint64_t>(lanes * (bins + 1)); });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 256), [&](const auto& range) {
     auto& histogram = partial.local();
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -90,7 +95,8 @@ std::vector<std::uint64_t> countPairs(std::span<const Vec3> points, const std::v
   std::vector<std::uint64_t> counts(bins + 1);
   for (const auto& histogram : partial)
     for (std::size_t b = 0; b < bins; ++b)
-      counts[b] += histogram[b] * (half ? 2 : 1);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        counts[b] += histogram[lanes * b + lane] * (half ? 2 : 1);
 
   // Self-images were counted like any other point; take them out (and the point itself, in a full search). A
   // half search visits them from one side only, in the half space of positive shifts.

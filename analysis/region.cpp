@@ -116,6 +116,7 @@ double Region::depthInside(const Vec3& x, double reach) const {
 }
 
 Volume Region::volume(std::uint64_t seed) const {
+  if (walls_.empty() && !surface_) return {box_.volume(), 0};
   const Vec3 up = Vec3::UnitX();
   const double from = box_.min().x(), length = box_.max().x() - from;
   return slabVolumes(up, from, length > 0 ? length : 1, 1, seed).front();

@@ -105,8 +105,10 @@ EmptySphere ascend(const SurfaceDistance& distance, Vec3 x, const Vec3* inside, 
                    double tolerance) {
   Compass compass;
   double value = distance(x), step = firstStep;
+  Vec3 away = distance.toGrains(x).away;
   const auto tryAt = [&](const Vec3& c, double most) {
-    const double v = distance(c);
+    // A try that is no better than what there is need not be known exactly.
+    const double v = std::min(distance.toGrains(c, most).distance, distance.toWalls(c));
     return v > most && (!inside || (c - *inside).squaredNorm() <= v * v) ? v : most;
   };
   // The distance has kinks, and that is where its maxima are: directions are tried, and steps halved when
@@ -117,7 +119,7 @@ EmptySphere ascend(const SurfaceDistance& distance, Vec3 x, const Vec3* inside, 
     const auto attempt = [&](const Vec3& c) {
       if (const double v = tryAt(c, most); v > most) most = v, best = c;
     };
-    attempt(x + step * distance.toGrains(x).away);
+    attempt(x + step * away);
     if (inside && (x - *inside).squaredNorm() > 0) attempt(x + step * (x - *inside).normalized());
     if (most == value)
       for (const Vec3& d : compass.next())
@@ -125,6 +127,7 @@ EmptySphere ascend(const SurfaceDistance& distance, Vec3 x, const Vec3* inside, 
     if (most > value) {
       x = best;
       value = most;
+      away = distance.toGrains(x).away;
       failed = 0;
     } else if (++failed == 2) {
       step *= 0.5;

@@ -180,7 +180,7 @@ std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells
 std::vector<double> climbedSizes(const SurfaceDistance& distance, const VoidPoints& points, double diameter) {
   std::vector<double> sizes(points.point.size());
   tbb::parallel_for(std::size_t{0}, sizes.size(), [&](std::size_t k) {
-    sizes[k] = climbAbout(distance, points.point[k], 0.1 * diameter, 2e-3 * diameter).radius;
+    sizes[k] = climbAbout(distance, points.point[k], 0.1 * diameter, 6e-3 * diameter).radius;
   });
   return sizes;
 }
