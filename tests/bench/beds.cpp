@@ -28,10 +28,12 @@ Scene Beads::scene(const std::vector<std::string>& knobs) const {
     return fmt::format(
         R"([[contact]]
 between = ["bead", "{}"]
-normal = {{ law = "linear", stiffness = "{:.17g} N/m", restitution = {:.17g} }}
+normal = {{ law = "linear", stiffness = "{:.17g} N/m", {} }}
 tangential = {}
 )",
-        with, stiffness, e,
+        with, stiffness,
+        clamped ? fmt::format("damping_rate = \"{:.17g} 1/s\", clamp_attraction = true", dampingRate)
+                : fmt::format("restitution = {:.17g}", e),
         friction ? fmt::format(R"({{ law = "spring", friction = {}, rotation = "project", arm = "radius" }})",
                                frictionCoefficient)
                  : R"({ law = "none" })");
@@ -115,6 +117,27 @@ std::string Beads::liggghtsDeck(std::int64_t look) const {
   return deck + fmt::format("compute kinetic all ke\nthermo_style custom step atoms c_kinetic\n"
                             "thermo_modify norm no format float %.17g\nthermo {}\n",
                             look);
+}
+
+std::string Beads::yadeScript(std::int64_t steps) const {
+  const Scene s = scene();
+  peers::YadeScene yade{standardCoefficients(friction), 0.5, std::numbers::pi / 6};
+  for (int k = 0; k < 3; ++k) {
+    yade.lower[k] = s.domain.lower[k];
+    yade.upper[k] = s.domain.upper[k];
+    yade.gravity[k] = s.gravity[k];
+  }
+  yade.floor = floor;
+  yade.timeStep = timeStep;
+  return peers::yadeScript(yade, steps);
+}
+
+std::vector<GrainSeed> shaken(std::vector<GrainSeed> beads, double speed) {
+  for (GrainSeed& s : beads) {
+    RandomStream random(4, RandomPurpose::test, s.id);
+    s.velocity += speed * random.direction();
+  }
+  return beads;
 }
 
 std::vector<GrainSeed> settledTile(int across, int layers, bool quick) {

@@ -4,6 +4,7 @@
 #include "sim/grains/seeding.h"
 #include "sim/scene/scene.h"
 #include "tests/peers/lammps.h"
+#include "tests/peers/yade.h"
 
 #include <string>
 #include <vector>
@@ -20,12 +21,14 @@ struct Beads {
   bool friction = true, floor = true;
   double restitution = 0; ///< > 0: instead of the damping rate
   double timeStep = 1e-4;
+  bool clamped = false; ///< contacts never attract, as Yade has it
 
   Scene scene(const std::vector<std::string>& knobs = {}) const;
   /// Decks of other programs up to their `run`: grains.data, forces, floor, kinetic energy every `look`
   /// steps.
   std::string lammpsDeck(std::int64_t look) const;
   std::string liggghtsDeck(std::int64_t look) const;
+  std::string yadeScript(std::int64_t steps) const;
 };
 
 /// Spring, damping, friction of the benchmark.
@@ -34,6 +37,9 @@ peers::HookeHistory standardCoefficients(bool friction = true);
 /// `across` x `across` x `layers` beads at rest on the floor: let fall from a jittered lattice, calmed.
 std::vector<GrainSeed> settledTile(int across, int layers, bool quick);
 constexpr double tileSpacing = 1.05; ///< a tile is this wide per bead
+
+/// The beads with random velocities of this size added.
+std::vector<GrainSeed> shaken(std::vector<GrainSeed> beads, double speed);
 
 /// `tile`, of width `side`, nx times ny times side by side.
 std::vector<GrainSeed> tiled(const std::vector<GrainSeed>& tile, double side, int nx, int ny);

@@ -1,7 +1,7 @@
 // Speed of the contact core on one machine, beside other programs where they are installed. All programs take
 // turns in rounds, since a machine's speed drifts by tens of per cent within seconds; every round is kept,
-// and ratios are medians of ratios within a round. A row of a case that LAMMPS takes part in counts only when
-// the kinetic energies of both at step 300 agree to 1e-3.
+// and ratios are medians of ratios within a round. A row of another
+// program counts only when the kinetic energies of both at step 300 agree to 1e-3.
 
 #include "sim/base/error.h"
 #include "sim/solvers/dem/dem_solver.h"
@@ -9,6 +9,7 @@
 #include "tests/bench/core_rows.h"
 #include "tests/peers/circumstances.h"
 #include "tests/peers/lammps.h"
+#include "tests/peers/yade.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -130,52 +131,72 @@ Timing runOurs(const CoreCase& c, const std::string& label, int threads, double 
   return t;
 }
 
-/// A program beside ours that reads decks of LAMMPS's kind.
+/// A program beside ours.
 struct Peer {
   const char *name, *command;
   const std::string CoreCase::*deck;
+  bool yade;      ///< not of LAMMPS's family: runs lookStep steps, and gives the energy at their end
+  int mostRounds; ///< a slow one takes fewer turns
 };
-constexpr Peer allPeers[] = {{"lammps", "lmp", &CoreCase::lammpsDeck},
-                             {"liggghts", "liggghts", &CoreCase::liggghtsDeck}};
+constexpr Peer allPeers[] = {{"lammps", "lmp", &CoreCase::lammpsDeck, false, 100},
+                             {"liggghts", "liggghts", &CoreCase::liggghtsDeck, false, 100},
+                             {"yade", "yade", &CoreCase::yadeScript, true, 2}};
 
 Timing runPeer(const CoreCase& c, const Peer& peer, const std::filesystem::path& folder, int ranks,
                int round) {
-  const std::string deck = c.*peer.deck + fmt::format("run {}\n", c.steps);
-  const peers::LammpsRun run = peers::runLammps(folder, deck, ranks, peer.command);
-  const auto& loop = run.loops.front();
   Timing t;
   t.benchCase = c.name;
   t.program = peer.name;
   t.threads = ranks;
   t.precision = "double";
   t.round = round;
-  t.steps = loop.steps;
   t.grains = static_cast<std::int64_t>(c.grains.size());
-  t.wallSeconds = loop.seconds;
-  t.cpuSeconds = loop.seconds * ranks; // its ranks wait by spinning
-  for (const auto& row : loop.thermo)
-    if (row.at("Step") == lookStep)
-      t.kineticEnergy = row.contains("kinetic") ? row.at("kinetic") : row.at("c_kinetic");
+  if (peer.yade) {
+    const peers::YadeRun run = peers::runYade(folder, c.*peer.deck, ranks);
+    t.steps = lookStep;
+    t.wallSeconds = run.seconds;
+    t.kineticEnergy = run.kineticEnergy;
+  } else {
+    const std::string deck = c.*peer.deck + fmt::format("run {}\n", c.steps);
+    const peers::LammpsRun run = peers::runLammps(folder, deck, ranks, peer.command);
+    const auto& loop = run.loops.front();
+    t.steps = loop.steps;
+    t.wallSeconds = loop.seconds;
+    for (const auto& row : loop.thermo)
+      if (row.at("Step") == lookStep)
+        t.kineticEnergy = row.contains("kinetic") ? row.at("kinetic") : row.at("c_kinetic");
+  }
+  t.cpuSeconds = t.wallSeconds * ranks; // those that wait do it by spinning
   return t;
 }
 
-Timing notInstalled(const std::string& name, const std::string& program) {
+/// A row that says why there is none.
+Timing noRow(const std::string& name, const std::string& program, const std::string& why) {
   Timing t;
   t.benchCase = name;
   t.program = program;
-  t.check = "void: not installed";
+  t.check = "void: " + why;
   return t;
 }
 
+/// Our energy at lookStep under the law that Yade has: without attraction at the end of a contact.
+double clampedEnergy(const CoreCase& c) {
+  const auto solver = solverAt(c, c.clamped, 0);
+  solver->advance(lookStep);
+  return solver->energies().translational;
+}
+
 /// Rows of another program or setting whose energy differs from ours in double ran another case.
-void compareEnergies(std::vector<Timing>& timings, const std::string& name) {
+void compareEnergies(std::vector<Timing>& timings, const CoreCase& c) {
   const auto reference = [](const Timing& t) { return t.program == "sandglass" && t.precision == "double"; };
   double ours = 0;
   for (const Timing& t : timings)
-    if (t.benchCase == name && reference(t)) ours = t.kineticEnergy;
+    if (t.benchCase == c.name && reference(t)) ours = t.kineticEnergy;
+  std::optional<double> clamped;
   for (Timing& t : timings)
-    if (t.benchCase == name && !reference(t) && t.wallSeconds > 0) {
-      const double off = std::abs(t.kineticEnergy / ours - 1);
+    if (t.benchCase == c.name && !reference(t) && t.wallSeconds > 0) {
+      if (t.program == "yade" && !clamped) clamped = clampedEnergy(c);
+      const double off = std::abs(t.kineticEnergy / (t.program == "yade" ? *clamped : ours) - 1);
       if (!(off <= energyTolerance)) t.check = fmt::format("void: kinetic energy off by {:.2g}", off);
     }
 }
@@ -204,13 +225,14 @@ void measure(const CoreCase& c, int rounds, const std::vector<Peer>& others,
       for (int k = 0; k < runners; ++k) {
         // The order turns round from round to round, so that a drift of the machine favours nobody.
         const int who = round % 2 ? k : runners - 1 - k;
+        if (who >= own && round > taking[who - own].mostRounds) continue;
         timings.push_back(who < own ? runOurs(ours[who], labels[who], threads, contacts, round)
                                     : runPeer(c, taking[who - own], scratch->path(), threads, round));
         const Timing& last = timings.back();
         std::cerr << fmt::format("{} round {}/{}, {} x {} {}: {:.2f} million grain-steps/s\n", c.name, round,
                                  rounds, threads, last.program, last.precision, last.rate() / 1e6);
       }
-  if (runners > 1) compareEnergies(timings, c.name);
+  if (runners > 1) compareEnergies(timings, c);
 }
 
 void write(const std::string& file, const std::string& text) {
@@ -243,18 +265,22 @@ int main(int argc, char** argv) {
     if (!alone)
       for (const Peer& p : allPeers)
         (peers::findProgram(p.command).empty() ? missing : present).push_back(p);
-    const std::string version = alone ? "" : peers::lammpsVersion();
+    std::string versions;
+    for (const std::string& version :
+         {peers::lammpsVersion(), peers::liggghtsVersion(), peers::yadeVersion()})
+      if (!alone && !version.empty()) versions += (versions.empty() ? "beside " : ", ") + version;
     std::vector<Timing> timings;
     for (const std::string& name : cases) {
       std::cerr << name << ": making its grains\n";
       const CoreCase c = makeCoreCase(name, quick);
       measure(c, rounds, present, variants, timings);
       for (const Peer& p : missing)
-        if (!(c.*p.deck).empty()) timings.push_back(notInstalled(name, p.name));
+        if (!(c.*p.deck).empty()) timings.push_back(noRow(name, p.name, "not installed"));
+      if (!alone && !c.whyNoPeers.empty()) timings.push_back(noRow(name, "others", c.whyNoPeers));
       write(csvFile, csv(timings)); // as it grows: a long bench may be stopped
       write(tableFile,
             fmt::format("Made by `./bootstrap bench core` on {}; {}; {} rounds.\n\n", peers::circumstances(),
-                        version.empty() ? "without LAMMPS" : version, rounds) +
+                        versions.empty() ? "no other program" : versions, rounds) +
                 summary(timings));
     }
     std::cout << csv(timings);

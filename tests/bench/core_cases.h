@@ -18,6 +18,9 @@ struct CoreCase {
   Solver::State state;           ///< of a run that has come so far (walls removed, contacts with a past)
   std::int64_t steps = 0;
   std::string lammpsDeck, liggghtsDeck; ///< up to the `run` command; empty: they take no part
+  std::string yadeScript;               ///< of lookStep steps: it is slow
+  Scene clamped;                        ///< the scene with Yade's law, where it takes part
+  std::string whyNoPeers;               ///< where no other program can run the same; empty otherwise
 };
 
 /// Step at which kinetic energies are compared.

@@ -72,8 +72,8 @@ std::string acrossCases(const std::vector<Timing>& timings) {
 std::string summary(const std::vector<Timing>& timings) {
   std::string text =
       "| case | program | precision | threads | grains | million grain-steps per second (lowest to "
-      "highest) | times LAMMPS | times one thread | cycles per contact | bytes per grain |\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n";
+      "highest) | times LAMMPS | times LIGGGHTS | times Yade | times one thread | cycles per contact | bytes "
+      "per grain |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   std::vector<Key> order;
   for (const Timing& t : timings)
     if (std::find(order.begin(), order.end(), keyOf(t)) == order.end()) order.push_back(keyOf(t));
@@ -98,17 +98,20 @@ std::string summary(const std::vector<Timing>& timings) {
       }
     const auto& [name, program, precision, threads] = key;
     if (rates.empty()) {
-      text += fmt::format("| {} | {} | | | | {} | | | | |\n", name, program, some->check);
+      text += fmt::format("| {} | {} | | | | {} | | | | | | |\n", name, program, some->check);
       continue;
     }
-    const bool ours = program == "sandglass";
+    const auto timesOther = [&, ours = program == "sandglass"](const char* other) {
+      if (!ours) return std::string();
+      return ratio(key, [&](const Timing& t, const Timing& o) {
+        return o.program == other && o.threads == t.threads;
+      });
+    };
     text += fmt::format(
-        "| {} | {} | {} | {} | {} | {:.2f} ({:.2f} to {:.2f}) | {} | {} | {} | {} |\n", name, program,
-        precision, threads, some->grains, median(rates), *std::min_element(rates.begin(), rates.end()),
-        *std::max_element(rates.begin(), rates.end()),
-        ours ? ratio(key, [](const Timing& t,
-                             const Timing& o) { return o.program == "lammps" && o.threads == t.threads; })
-             : "",
+        "| {} | {} | {} | {} | {} | {:.2f} ({:.2f} to {:.2f}) | {} | {} | {} | {} | {} | {} |\n", name,
+        program, precision, threads, some->grains, median(rates),
+        *std::min_element(rates.begin(), rates.end()), *std::max_element(rates.begin(), rates.end()),
+        timesOther("lammps"), timesOther("liggghts"), timesOther("yade"),
         threads > 1 ? ratio(key,
                             [](const Timing& t, const Timing& o) {
                               return o.program == t.program && o.precision == t.precision && o.threads == 1;

@@ -26,7 +26,8 @@ struct Timing {
 /// Every round of every case. Columns beyond the common ones: round, cycles_per_contact.
 std::string csv(const std::vector<Timing>& timings);
 
-/// Medians over the rounds, and the median over rounds of the ratio to LAMMPS on as many ranks; Markdown.
+/// Medians over the rounds, and the medians over rounds of the ratios to others on as many ranks or threads;
+/// Markdown.
 std::string summary(const std::vector<Timing>& timings);
 
 double median(std::vector<double> values);

@@ -75,6 +75,15 @@ std::string lammpsVersion() {
   return w.size() < 3 ? "LAMMPS of unknown version" : fmt::format("LAMMPS {} {} {}", w[0], w[1], w[2]);
 }
 
+std::string liggghtsVersion() {
+  if (findProgram("liggghts").empty()) return {};
+  const std::string text = runCommand(fs::temp_directory_path(), "liggghts -h").text;
+  const auto at = text.find("(Version ");
+  const auto w = words(at == std::string::npos ? "" : text.substr(at + 9, 60));
+  if (w.size() < 2) return "LIGGGHTS of unknown version";
+  return w[0] + " " + w[1].substr(0, w[1].find(','));
+}
+
 void writeLammpsData(const fs::path& file, const Scene& scene, const std::vector<GrainSeed>& grains) {
   fmt::memory_buffer out;
   const auto add = [&]<class... A>(fmt::format_string<A...> form, A&&... values) {
@@ -100,9 +109,10 @@ std::string lammpsOpening(const Scene& scene, const std::string& dataFile) {
   std::string boundary;
   for (const bool p : scene.domain.periodic)
     boundary += p ? " p" : " f";
-  return fmt::format("units lj\natom_style sphere\nboundary{}\nnewton off\nprocessors * * 1\ncomm_modify vel yes\n"
-                     "read_data {}\n",
-                     boundary, dataFile);
+  return fmt::format(
+      "units lj\natom_style sphere\nboundary{}\nnewton off\nprocessors * * 1\ncomm_modify vel yes\n"
+      "read_data {}\n",
+      boundary, dataFile);
 }
 
 std::string HookeHistory::words() const {

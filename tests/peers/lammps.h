@@ -16,6 +16,9 @@ namespace sandglass::peers {
 /// "LAMMPS 29 Sep 2021", or empty where `lmp` is not installed.
 std::string lammpsVersion();
 
+/// "LIGGGHTS-PUBLIC 3.8.0", a relative of LAMMPS, or empty where it is not installed.
+std::string liggghtsVersion();
+
 /// Atoms of style sphere with 17 digits: atom id = grain id + 1, type 1, velocities and spins.
 /// Densities are those of the species in `scene`.
 void writeLammpsData(const std::filesystem::path& file, const Scene& scene,
