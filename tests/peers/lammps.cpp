@@ -89,14 +89,14 @@ void writeLammpsData(const fs::path& file, const Scene& scene, const std::vector
   const auto add = [&]<class... A>(fmt::format_string<A...> form, A&&... values) {
     fmt::format_to(std::back_inserter(out), form, std::forward<A>(values)...);
   };
-  add("grains of a scene\n\n{} atoms\n1 atom types\n\n", grains.size());
+  add("grains of a scene\n\n{} atoms\n{} atom types\n\n", grains.size(), scene.species.size());
   for (int k = 0; k < 3; ++k)
     add("{0:.17g} {1:.17g} {2}lo {2}hi\n", scene.domain.lower[k], scene.domain.upper[k], "xyz"[k]);
   add("\nAtoms # sphere\n\n");
   for (const GrainSeed& g : grains) {
     const double density = scene.material(scene.species.at(g.species).material).density;
-    add("{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", g.id + 1, 2 * g.radius, density, g.position.x(),
-        g.position.y(), g.position.z());
+    add("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", g.id + 1, g.species + 1, 2 * g.radius, density,
+        g.position.x(), g.position.y(), g.position.z());
   }
   add("\nVelocities\n\n");
   for (const GrainSeed& g : grains)

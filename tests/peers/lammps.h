@@ -19,7 +19,7 @@ std::string lammpsVersion();
 /// "LIGGGHTS-PUBLIC 3.8.0", a relative of LAMMPS, or empty where it is not installed.
 std::string liggghtsVersion();
 
-/// Atoms of style sphere with 17 digits: atom id = grain id + 1, type 1, velocities and spins.
+/// Atoms of style sphere with 17 digits: atom id = grain id + 1, type = species + 1, velocities and spins.
 /// Densities are those of the species in `scene`.
 void writeLammpsData(const std::filesystem::path& file, const Scene& scene,
                      const std::vector<GrainSeed>& grains);
