@@ -60,6 +60,11 @@ public:
     return o;
   }
 
+  void fetch(std::size_t k) const {
+    __builtin_prefetch(&grains_.position[k]);
+    __builtin_prefetch(&grains_.radius[k]);
+  }
+
 private:
   const GrainShape& shapeOf(std::size_t k) const {
     return grains_.shapes[static_cast<std::size_t>(grains_.shape[k])];
@@ -79,8 +84,10 @@ public:
   explicit DepthMap(const PictureGeometry& picture)
       : width_(picture.width), height_(picture.height), scale_(pixelsPerMetre(picture)),
         flat_(picture.camera.orthographic),
-        depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
-               std::numeric_limits<float>::infinity()) {}
+        depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), open),
+        tilesAcross_((width_ + tile - 1) / tile),
+        tiles_(static_cast<std::size_t>(tilesAcross_) *
+               static_cast<std::size_t>((height_ + tile - 1) / tile)) {}
 
   /// Whether a pixel centre in the grain's rectangle and in the circle around it is open.
   bool mayBeSeen(const Outline& o) const {
@@ -89,6 +96,9 @@ public:
     if (!flat_ && (front <= 1e-6 * back || o.place.z() <= o.radius)) return true; // around the eye
     const auto [left, right] = across(o.place.x(), o.reach.x(), front, back);
     const auto [bottom, top] = across(o.place.y(), o.reach.y(), front, back);
+    const Pixels columns = centres(left + width_ / 2.0, right + width_ / 2.0, width_);
+    const Pixels rows = centres(bottom + height_ / 2.0, top + height_ / 2.0, height_);
+    if (isCovered(columns, rows, static_cast<float>(front))) return false;
     const Circle circle = around(o);
     const auto [y0, y1] = centres(std::max(bottom + height_ / 2.0, circle.y - circle.radius),
                                   std::min(top + height_ / 2.0, circle.y + circle.radius), height_);
@@ -118,6 +128,7 @@ public:
     const int y0 = std::max(0, static_cast<int>(std::ceil(middleY - highest - 0.5)));
     const int y1 = std::min(height_ - 1, static_cast<int>(std::floor(middleY + highest - 0.5)));
     const auto depth = static_cast<float>(o.place.z());
+    int leftmost = width_, rightmost = -1;
     for (int y = y0; y <= y1; ++y) {
       const double dy = y + 0.5 - middleY;
       const double half = std::sqrt(std::max(0.0, xx - dy * dy * determinant)) / xx - margin;
@@ -126,7 +137,12 @@ public:
       const int x1 = std::min(width_ - 1, static_cast<int>(std::floor(middle + half - 0.5)));
       for (int x = x0; x <= x1; ++x)
         depth_[at(x, y)] = std::min(depth_[at(x, y)], depth);
+      leftmost = std::min(leftmost, x0);
+      rightmost = std::max(rightmost, x1);
     }
+    for (int ty = y0 / tile; ty <= y1 / tile && y0 <= y1; ++ty)
+      for (int tx = leftmost / tile; tx <= rightmost / tile && leftmost <= rightmost; ++tx)
+        touch(tx, ty);
   }
 
 private:
@@ -139,6 +155,34 @@ private:
     const double near = scale_ / front, far = scale_ / back;
     return {(x - reach) * (x < reach ? near : far), (x + reach) * (x > -reach ? near : far)};
   }
+  struct Pixels {
+    int first, last;
+  };
+  /// The farthest depth in a square of pixels, or something farther: it is looked up anew after some changes.
+  struct Tile {
+    float farthest = open;
+    int changes = 0;
+  };
+  bool isCovered(const Pixels& columns, const Pixels& rows, float front) const {
+    if (columns.first > columns.last || rows.first > rows.last) return true; // outside the picture
+    for (int ty = rows.first / tile; ty <= rows.last / tile; ++ty)
+      for (int tx = columns.first / tile; tx <= columns.last / tile; ++tx)
+        if (tiles_[tileAt(tx, ty)].farthest > front) return false;
+    return true;
+  }
+  void touch(int tx, int ty) {
+    Tile& t = tiles_[tileAt(tx, ty)];
+    constexpr int patience = 4;
+    if (++t.changes < patience) return;
+    t = {0, 0};
+    for (int y = ty * tile; y < std::min(height_, (ty + 1) * tile); ++y)
+      for (int x = tx * tile; x < std::min(width_, (tx + 1) * tile); ++x)
+        t.farthest = std::max(t.farthest, depth_[at(x, y)]);
+  }
+  std::size_t tileAt(int tx, int ty) const {
+    return static_cast<std::size_t>(ty) * static_cast<std::size_t>(tilesAcross_) +
+           static_cast<std::size_t>(tx);
+  }
   struct Circle {
     double x, y, radius; ///< [pixel]
   };
@@ -148,13 +192,10 @@ private:
     const double z = o.place.z();
     const double scale = flat_ ? scale_ : scale_ / z;
     const double stretch =
-        flat_ ? 1 : std::hypot(1, o.place.head<2>().norm() / z) * z / std::max(z - o.radius, 1e-9 * z);
+        flat_ ? 1 : std::sqrt(z * z + o.place.head<2>().squaredNorm()) / std::max(z - o.radius, 1e-9 * z);
     return {o.place.x() * scale + width_ / 2.0, o.place.y() * scale + height_ / 2.0,
             o.radius * scale * stretch + margin};
   }
-  struct Pixels {
-    int first, last;
-  };
   /// Pixels whose centres lie between two places, the margin included.
   static Pixels centres(double low, double high, int size) {
     const double most = size;
@@ -166,11 +207,15 @@ private:
   }
 
   static constexpr double margin = 0.02; ///< [pixel] for rounding in the rasteriser
+  static constexpr float open = std::numeric_limits<float>::infinity();
+  static constexpr int tile = 8; ///< [pixel]
 
   int width_, height_;
   double scale_;
   bool flat_;
   std::vector<float> depth_;
+  int tilesAcross_;
+  std::vector<Tile> tiles_;
 };
 
 } // namespace
@@ -198,7 +243,10 @@ std::vector<std::size_t> unhidden(const VisibleGrains& grains, const PictureGeom
     return result;
   }
   DepthMap map(picture);
-  for (const Seen& seen : order) {
+  constexpr std::size_t ahead = 24; // the order jumps through memory: ask for what comes soon
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    if (n + ahead < order.size()) outlines.fetch(order[n + ahead].grain);
+    const Seen& seen = order[n];
     const Outline outline = outlines(seen.grain);
     if (!map.mayBeSeen(outline)) continue;
     result.push_back(seen.grain);

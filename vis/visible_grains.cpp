@@ -75,7 +75,12 @@ VisibleGrains visibleGrains(const Frame& frame, const View& view, const History*
   result.shapes = frame.shapes;
   for (GrainShape& s : result.shapes)
     s.semiAxes *= view.grainScale;
-  for (const Vec3& shift : imageShifts(frame.domain, view))
+  const std::vector<Vec3> shifts = imageShifts(frame.domain, view);
+  result.index.reserve(shifts.size() * frame.size());
+  result.id.reserve(shifts.size() * frame.size());
+  result.position.reserve(shifts.size() * frame.size());
+  result.radius.reserve(shifts.size() * frame.size());
+  for (const Vec3& shift : shifts)
     for (std::size_t i = 0; i < frame.size(); ++i) {
       const Vec3 place = frame.position[i] + shift;
       if (!place.allFinite() || !(radius[i] > 0) || !isShown(i) || isClipped(view, place)) continue;
