@@ -18,6 +18,10 @@ const std::vector<AnalysisKind>& analysisKinds() {
       coordinationKind(),
       stateKind(),
       fieldsKind(),
+      motionKind(),
+      mixingKind(),
+      clumpsKind(),
+      forcesKind(),
   };
   return kinds;
 }

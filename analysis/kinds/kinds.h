@@ -13,5 +13,9 @@ AnalysisKind orderKind();
 AnalysisKind coordinationKind();
 AnalysisKind stateKind();
 AnalysisKind fieldsKind();
+AnalysisKind motionKind();
+AnalysisKind mixingKind();
+AnalysisKind clumpsKind();
+AnalysisKind forcesKind();
 
 } // namespace sandglass::analysis

@@ -1,0 +1,129 @@
+// Mixing and its floor, displacements, clumps, fabric and force chains on made-up frames.
+
+#include "analysis/force_network.h"
+#include "analysis/mixing.h"
+#include "analysis/registry.h"
+#include "tests/analysis/lattices.h"
+
+#include <catch2/catch.hpp>
+
+#include <numbers>
+
+using namespace sandglass;
+using namespace sandglass::analysis;
+using namespace sandglass::analysis::test;
+
+TEST_CASE("a shuffled mixture has the segregation index of its floor, a separated one is apart", "[flow]") {
+  const Frame frame = uniformFrame(4000, Vec3::Constant(10), {false, false, false}, 0.1, {}, 3);
+  RandomStream random(9, RandomPurpose::test, 0);
+  std::vector<char> shuffled, apart;
+  for (const auto& x : frame.position) {
+    shuffled.push_back(random.uniform() < 0.3);
+    apart.push_back(x.z() < 5);
+  }
+  const Mixing m = mixing(frame.position, shuffled, 2, 200, 1);
+  CHECK(std::abs(m.index - m.floor) < 4 * m.floorDeviation);
+  CHECK(m.lacey == Approx(1).margin(0.01));
+  // Layers of cells 2 high: the border at 5 runs through the middle of the third. There x_c is x; all other
+  // cells are pure: |x_c/x - 1| = 1 for x = 1/2 in 4 of 5 layers, and chance in the fifth.
+  const Mixing a = mixing(frame.position, apart, 2.5, 200, 1);
+  CHECK(a.index == Approx(1).margin(0.05));
+  CHECK(a.lacey == Approx(0).margin(0.01));
+  CHECK_THROWS(mixing(frame.position, std::vector<char>(4000, 1), 2, 10, 1));
+}
+
+TEST_CASE("random steps diffuse with their known rate, drift and periods taken away", "[flow]") {
+  // 2000 grains, 40 steps of variance 0.01 in each direction every 0.5 s, in a periodic box of 3, drifting
+  // along x: <r^2> = 3 0.01 per step = 6 D 0.5, D = 0.01.
+  RandomStream random(4, RandomPurpose::test, 0);
+  Frame frame = uniformFrame(2000, Vec3::Constant(3), {true, true, true}, 0.05, {}, 3);
+  std::vector<FramePtr> frames;
+  for (int s = 0; s < 40; ++s) {
+    frame.time = 0.5 * s;
+    frames.push_back(std::make_shared<Frame>(frame));
+    for (auto& x : frame.position)
+      for (int k = 0; k < 3; ++k) {
+        x[k] += 0.1 * random.normal() + (k == 0 ? 0.3 : 0);
+        x[k] -= 3 * std::floor(x[k] / 3);
+      }
+  }
+  const AnalysisKind& kind = analysisKind("motion");
+  const Results r = analyze(kind, defaultKnobs(kind), {}, frames);
+  CHECK(r.curves[0].series[0].y[0] == Approx(0.03).epsilon(0.02));
+  CHECK(r.curves[0].numbers.at("diffusion") == Approx(0.01).epsilon(0.1));
+}
+
+TEST_CASE("velocities of one direction in each half are correlated near and not far", "[flow]") {
+  // All grains of a layer (z < 1.5 or above) share a velocity: C = 1 within a layer.
+  Frame frame = crystal(Vec3::Constant(1.1), simpleCubic, {4, 4, 4});
+  for (const auto& x : frame.position)
+    frame.vectors[quantity::velocity].push_back(x.z() < 2 ? Vec3(1, 0, 0) : Vec3(-1, 0, 0));
+  const AnalysisKind& kind = analysisKind("motion");
+  Frame later = frame;
+  later.time = 1;
+  const Results r =
+      analyze(kind, defaultKnobs(kind), {}, {std::make_shared<Frame>(frame), std::make_shared<Frame>(later)});
+  const Curve* c = nullptr;
+  for (const auto& curve : r.curves)
+    if (curve.name == "velocity_correlation") c = &curve;
+  REQUIRE(c);
+  // Nearest neighbours: four of six in the layer itself, one up and one down, one of them of the other half:
+  // (4 + 1 - 1) / 6.
+  CHECK(c->series[0].x[0] == Approx(1.125));
+  CHECK(c->series[0].y[0] == Approx(2.0 / 3).epsilon(1e-12));
+}
+
+TEST_CASE("clumps are connected groups", "[flow]") {
+  // A chain of four across a periodic border, a pair, and a lone grain.
+  Frame frame = frameOf({Vec3(9.5, 5, 5), Vec3(0.5, 5, 5), Vec3(1.5, 5, 5), Vec3(8.5, 5, 5), Vec3(5, 5, 5),
+                         Vec3(5, 6, 5), Vec3(5, 5, 9)},
+                        Vec3::Constant(10), {true, true, true}, 0.5);
+  const AnalysisKind& kind = analysisKind("clumps");
+  const Results r = analyze(kind, defaultKnobs(kind), {}, {std::make_shared<Frame>(frame)});
+  CHECK(r.grains[1].values == std::vector<double>{4, 4, 4, 4, 2, 2, 1});
+  CHECK(r.curves[1].series[0].y[0] == 4);
+  CHECK(r.curves[0].series[0].y == std::vector<double>{1.0 / 7, 2.0 / 7, 4.0 / 7});
+}
+
+TEST_CASE("fabric of known directions", "[flow]") {
+  Frame frame = frameOf({Vec3(1, 1, 1), Vec3(1, 1, 2)}, Vec3::Constant(5), {false, false, false}, 0.5);
+  const auto contact = [](const Vec3& n, double f) {
+    FrameContact c;
+    c.a = 0;
+    c.b = 1;
+    c.normal = n;
+    c.force = f * n;
+    return c;
+  };
+  frame.contacts = {contact(Vec3::UnitZ(), 1)};
+  CHECK(anisotropy(fabric(frame, false)) == Approx(1));
+  frame.contacts = {contact(Vec3::UnitX(), 1), contact(Vec3::UnitY(), 1), contact(Vec3::UnitZ(), 2)};
+  CHECK(anisotropy(fabric(frame, false)) == Approx(0).margin(1e-12));
+  CHECK(fabric(frame, true)(2, 2) == Approx(0.5));
+}
+
+TEST_CASE("a loaded column is one force chain, loose neighbours are none of it", "[flow]") {
+  std::vector<Vec3> points;
+  for (int k = 0; k < 6; ++k)
+    points.push_back(Vec3(2, 2, 0.5 + k));
+  points.push_back(Vec3(3, 2, 0.5));
+  Frame frame = frameOf(points, Vec3::Constant(8), {false, false, false}, 0.5);
+  for (int k = 0; k + 1 < 6; ++k) {
+    FrameContact c;
+    c.a = k + 1;
+    c.b = k;
+    c.normal = Vec3::UnitZ();
+    c.force = 10 * c.normal;
+    frame.contacts.push_back(c);
+  }
+  FrameContact side;
+  side.a = 6;
+  side.b = 0;
+  side.normal = Vec3::UnitX();
+  side.force = 0.1 * side.normal;
+  frame.contacts.push_back(side);
+  const auto chains = forceChains(frame, std::numbers::pi / 4);
+  // The two ends carry half of the others (one contact): 10 against a mean of (2 10 + 4 20 + 0.1) / 7 = 14.3.
+  REQUIRE(chains.size() == 1);
+  CHECK(chains[0].grains == std::vector<std::size_t>{1, 2, 3, 4});
+}
