@@ -1,5 +1,5 @@
 // Agreement with LAMMPS, an independent program, on the same scenes with the same laws.
-// Usage: validate_lammps FOLDER [--case pairs|beds|hopper]... [--seeds 1 2 3] [--quick]
+// Usage: validate_lammps FOLDER [--case pairs|beds|hopper]... [--seeds 1 2 3] [--beds 50] [--quick]
 
 #include "tests/validate/lammps/cases.h"
 
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <numeric>
 
 using namespace sandglass;
 using namespace sandglass::validate;
@@ -18,13 +19,21 @@ int main(int argc, char** argv) {
   std::string folder;
   std::vector<std::string> names;
   std::vector<std::uint64_t> seeds{1, 2, 3};
+  int beds = 50;
   bool quick = false;
   app.add_option("folder", folder, "where results go")->required();
   app.add_option("--case", names, "only these")->check(CLI::IsMember({"pairs", "beds", "hopper"}));
-  app.add_option("--seeds", seeds, "of the beds");
+  app.add_option("--seeds", seeds, "of the hoppers' beds");
+  app.add_option("--beds", beds, "how many settled beds; five seconds of computing each")
+      ->check(CLI::Range(2, 10000));
   app.add_flag("--quick", quick, "small beds, one of each: shows that everything works");
   CLI11_PARSE(app, argc, argv);
-  if (quick) seeds = {1};
+  if (quick) {
+    seeds = {1};
+    beds = 2;
+  }
+  std::vector<std::uint64_t> bedSeeds(static_cast<std::size_t>(beds));
+  std::iota(bedSeeds.begin(), bedSeeds.end(), 1);
   const auto wanted = [&](const char* name) {
     return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -35,17 +44,18 @@ int main(int argc, char** argv) {
       report.recorded("all", "agreement with LAMMPS", 0, 0, "", "", "LAMMPS (lmp) is not installed");
     } else {
       if (wanted("pairs")) comparePairs(report);
-      if (wanted("beds")) compareBeds(report, seeds, quick);
+      if (wanted("beds")) compareBeds(report, bedSeeds, quick);
       if (wanted("hopper")) compareHoppers(report, seeds, quick);
     }
     if (quick)
       for (Row& r : report.rows)
         if (!r.testCase.starts_with("trajectory")) r.skipped = "a quick look";
-    writeReport(report, folder, "lammps", "Agreement with an independent program",
-                "The same grains, laws, walls and step in LAMMPS: trajectories through one collision, beds "
-                "that settle\n"
-                "in each program by itself, and slot hoppers that start from common settled beds.",
-                fmt::format("{}; seeds {}", version, fmt::join(seeds, ", ")));
+    writeReport(
+        report, folder, "lammps", "Agreement with an independent program",
+        "The same grains, laws, walls and step in LAMMPS: trajectories through one collision, beds "
+        "that settle\n"
+        "in each program by itself, and slot hoppers that start from common settled beds.",
+        fmt::format("{}; {} settled beds, hoppers with seeds {}", version, beds, fmt::join(seeds, ", ")));
     std::cout << csv(report.rows);
     return allOk(report.rows) ? 0 : 1;
   } catch (const std::exception& e) {
