@@ -132,11 +132,9 @@ std::string Beads::yadeScript(std::int64_t steps) const {
   return peers::yadeScript(yade, steps);
 }
 
-std::vector<GrainSeed> shaken(std::vector<GrainSeed> beads, double speed) {
-  for (GrainSeed& s : beads) {
-    RandomStream random(4, RandomPurpose::test, s.id);
-    s.velocity += speed * random.direction();
-  }
+std::vector<GrainSeed> dropped(std::vector<GrainSeed> beads, double speed) {
+  for (GrainSeed& s : beads)
+    s.velocity.z() -= speed;
   return beads;
 }
 

@@ -38,8 +38,8 @@ peers::HookeHistory standardCoefficients(bool friction = true);
 std::vector<GrainSeed> settledTile(int across, int layers, bool quick);
 constexpr double tileSpacing = 1.05; ///< a tile is this wide per bead
 
-/// The beads with random velocities of this size added.
-std::vector<GrainSeed> shaken(std::vector<GrainSeed> beads, double speed);
+/// The beads all moving down at this speed: a bed that has just been dropped by a little.
+std::vector<GrainSeed> dropped(std::vector<GrainSeed> beads, double speed);
 
 /// `tile`, of width `side`, nx times ny times side by side.
 std::vector<GrainSeed> tiled(const std::vector<GrainSeed>& tile, double side, int nx, int ny);

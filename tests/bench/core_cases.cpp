@@ -174,7 +174,7 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
          CoreCase c =
              bed("bed_1e5", tile(10, 25, q), q ? 2 : 8, q ? 1 : 5, 0, true, q ? look : 2 * look, true);
          // At rest there is no energy to compare; see docs/performance.md.
-         c.grains = shaken(std::move(c.grains), 0.05);
+         c.grains = dropped(std::move(c.grains), 0.5);
          return c;
        }},
       {"bed_1e4",
