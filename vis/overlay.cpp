@@ -111,9 +111,13 @@ bool Overlay::Paint(vtkContext2D* painter) {
   if (!content.time.empty())
     write(painter, content, w - margin * s, top, content.time, textSize + 1, Side::right, false,
           content.backed);
-  const float space = h / static_cast<float>(std::max<std::size_t>(content.legends.size(), 1));
+  // One legend stands in the middle; several share what title and scale bar leave.
+  const bool several = content.legends.size() > 1;
+  const float ceiling = several ? h - topSpace * s : h, ground = several ? axesSpace * s : 0;
+  const float space =
+      (ceiling - ground) / static_cast<float>(std::max<std::size_t>(content.legends.size(), 1));
   for (std::size_t k = 0; k < content.legends.size(); ++k) {
-    const float middle = h - (static_cast<float>(k) + 0.5F) * space;
+    const float middle = ceiling - (static_cast<float>(k) + 0.5F) * space;
     if (content.legends[k].entries.empty())
       paintLegend(painter, content.legends[k], middle, space);
     else

@@ -153,7 +153,9 @@ class Draughtsman {
 public:
   Draughtsman(const RenderOptions& options, vis::View view)
       : renderer_(backendOf(options.backend)), view_(std::move(view)), turn_(options.turn) {
-    if (!options.field.empty()) field_ = vis::readVtiField(options.field);
+    if (options.field.empty()) return;
+    field_ = vis::readVtiField(options.field);
+    if (options.viewFile.empty()) showThroughMiddle();
   }
 
   struct Drawn {
@@ -181,6 +183,17 @@ public:
   }
 
 private:
+  /// The slice across the field's shortest side, and no grains in front of it.
+  void showThroughMiddle() {
+    const Vec3 size = field_->spacing.cwiseProduct(
+        Vec3(field_->points[0] - 1, field_->points[1] - 1, field_->points[2] - 1));
+    Eigen::Index shortest = 0;
+    size.minCoeff(&shortest);
+    view_.slice.point = field_->origin + size / 2;
+    view_.slice.normal = Vec3::Unit(shortest);
+    view_.grains = false;
+  }
+
   FramePtr load(const RenderSource& source, std::size_t index) const {
     FramePtr frame = source.frames->load(index);
     if (!field_) return frame;

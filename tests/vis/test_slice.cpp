@@ -4,10 +4,14 @@
 #include "tests/vis/pixels.h"
 #include "tests/vis/sample_fields.h"
 #include "vis/colour_map.h"
+#include "vis/readers/vti_field.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 using namespace sandglass;
 using namespace sandglass::test;
@@ -85,6 +89,36 @@ TEST_CASE("streamlines of a solid-body rotation are circles") {
   }
   CHECK(starts > 5);
   CHECK(followed >= starts * 9 / 10);
+}
+
+TEST_CASE("a field comes back from its VTI file with arrays, places and units") {
+  analysis::Field field;
+  field.name = "mean";
+  field.origin = Vec3(1, 2, 3);
+  field.spacing = Vec3(0.5, 0.25, 2);
+  field.count = {3, 2, 2};
+  for (int k = 0; k < 12; ++k) {
+    field.scalars["density"].push_back(k == 5 ? std::nan("") : 0.1 * k);
+    field.vectors["velocity"].emplace_back(k, -k, 0.5 * k);
+  }
+  field.units = {{"density", "kg/m^3"}, {"velocity", "m/s"}};
+  std::string name = (std::filesystem::temp_directory_path() / "sandglass-vti-XXXXXX").string();
+  const std::filesystem::path folder = mkdtemp(name.data());
+  std::ofstream(folder / "mean.vti") << analysis::toVti(field);
+  const FrameField back = readVtiField(folder / "mean.vti");
+  CHECK(back.name == "mean");
+  CHECK(back.points == field.count);
+  CHECK((back.origin - field.origin).norm() < 1e-15);
+  CHECK((back.spacing - field.spacing).norm() < 1e-15);
+  CHECK(back.units == field.units);
+  CHECK(back.vectors.at("velocity") == field.vectors.at("velocity"));
+  CHECK(std::isnan(back.scalars.at("density")[5]));
+  CHECK(back.scalars.at("density")[7] == field.scalars.at("density")[7]);
+  CHECK(frameField(field).units == field.units);
+  std::ofstream(folder / "bad.vti") << "<VTKFile type=\"PolyData\"></VTKFile>";
+  CHECK_THROWS_WITH(readVtiField(folder / "bad.vti"), Catch::Contains("bad.vti"));
+  CHECK_THROWS_WITH(readVtiField(folder / "none.vti"), Catch::Contains("cannot be opened"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("what a slice asks for and the frame does not have is named") {

@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkStringArray.h>
 #include <vtkXMLImageDataReader.h>
 
 namespace sandglass::vis {
@@ -47,6 +49,14 @@ FrameField readVtiField(const std::filesystem::path& file) {
       for (vtkIdType k = 0; k < array->GetNumberOfTuples(); ++k)
         values.emplace_back(array->GetTuple3(k)[0], array->GetTuple3(k)[1], array->GetTuple3(k)[2]);
     }
+  }
+  // What analysis writes: "unit velocity" = "m/s" as field data.
+  const std::string prefix = "unit ";
+  for (int a = 0; a < image->GetFieldData()->GetNumberOfArrays(); ++a) {
+    auto* text = vtkStringArray::SafeDownCast(image->GetFieldData()->GetAbstractArray(a));
+    if (!text || !text->GetName() || text->GetNumberOfValues() != 1) continue;
+    const std::string name = text->GetName();
+    if (name.starts_with(prefix)) field.units[name.substr(prefix.size())] = text->GetValue(0);
   }
   if (field.scalars.empty() && field.vectors.empty())
     throw InputError(fmt::format(
