@@ -39,6 +39,11 @@ void AnalysisWorker::compute(const PanelAnalysis& analysis, AnalysisInput input,
   changed_.notify_all();
 }
 
+bool AnalysisWorker::isIdle() const {
+  const std::lock_guard lock(mutex_);
+  return done_ == asked_ && results_.empty();
+}
+
 std::map<QString, AnalysisWorker::Outcome> AnalysisWorker::take() {
   const std::lock_guard lock(mutex_);
   return std::exchange(results_, {});

@@ -32,7 +32,7 @@ public:
     std::optional<analysis::Results> results;
     QString fault; ///< why there is none
   };
-  bool isIdle() const { return done_ == asked_; } ///< nothing waits and nothing is being worked on
+  bool isIdle() const; ///< nothing waits, is being worked on, or has not been taken
   std::map<QString, Outcome> take();              ///< the newest results by id
 
 Q_SIGNALS: // from the worker's thread
@@ -50,7 +50,7 @@ private:
   static Outcome outcomeOf(const Order& order);
 
   std::atomic<std::uint64_t> asked_{0}, done_{0}; ///< numbers of orders; replaced ones count as done
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::map<QString, Order> orders_;
   std::map<QString, std::uint64_t> epochs_;

@@ -1,6 +1,7 @@
 #include "app/desktop/chart_panel.h"
 
 #include "app/desktop/chart_curves.h"
+#include "app/desktop/style.h"
 
 #include <QHBoxLayout>
 #include <QMouseEvent>
@@ -103,7 +104,8 @@ void ChartPanel::setCurves(std::vector<analysis::Curve> curves) {
     which_ = new QComboBox(bar_);
     which_->setObjectName("curve");
     which_->setAccessibleName("Curve");
-    which_->setMaximumWidth(150);
+    which_->setMinimumWidth(100);
+    which_->setMaximumWidth(170);
     static_cast<QHBoxLayout*>(bar_->layout())->insertWidget(0, which_);
     connect(which_, QOverload<int>::of(&QComboBox::activated), this, [this](int k) {
       zoom_.reset();
@@ -131,6 +133,7 @@ void ChartPanel::offerKnobs(const std::vector<ParameterSpec>& knobs) {
   if (knobs.empty()) return;
   knobs_ = new QLineEdit(bar_);
   knobs_->setObjectName("knobs");
+  knobs_->setMinimumWidth(60);
   knobs_->setAccessibleName("Knobs of the analysis");
   knobs_->setPlaceholderText("knobs, such as " + QString::fromStdString(knobs.front().name) + "=...");
   QString tip = "Knobs as name=value, with spaces between:";
@@ -263,10 +266,10 @@ void ChartPanel::leaveEvent(QEvent*) {
 
 void ChartPanel::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  painter.fillRect(rect(), Qt::white);
+  painter.fillRect(rect(), image_.isNull() ? ink().paper : QColor(Qt::white));
   const QRect area(0, 0, width(), height() - bar_->height());
   if (image_.isNull()) {
-    painter.setPen(QColor(95, 101, 108));
+    painter.setPen(ink().text);
     painter.drawText(area.adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap, hint_);
     return;
   }

@@ -128,6 +128,7 @@ private:
   void complain(const QStringList& sentences);
   void usePreset(const std::string& preset);
   void toggleTrack();
+  void togglePanel(const QString& id, bool on);
   void chooseFile();
   void chooseFolder();
   void choosePictureFile();

@@ -34,11 +34,18 @@ void SceneChecker::check(const QString& text, const QString& file, bool preview)
   in_.put({text, file, preview, ++asked_});
 }
 
+std::optional<SceneChecker::Outcome> SceneChecker::take() {
+  auto outcome = out_.take();
+  if (outcome) taken_ = outcome->number;
+  return outcome;
+}
+
 void SceneChecker::work() {
   lowerPriority(nice);
   while (const auto order = in_.wait()) {
     Outcome outcome;
     outcome.text = order->text;
+    outcome.number = order->number;
     try {
       const std::filesystem::path file = order->file.toStdString();
       const auto folder = file.parent_path();

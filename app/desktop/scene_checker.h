@@ -25,7 +25,7 @@ public:
 
   /// `file`: for messages, and for where files that the scene names lie.
   void check(const QString& text, const QString& file, bool preview);
-  bool isIdle() const { return done_ == asked_; }
+  bool isIdle() const { return done_ == asked_ && taken_ == asked_; } ///< all that was asked has been taken
 
   struct Outcome {
     QString text;
@@ -33,8 +33,9 @@ public:
     QString resolved;           ///< the same in SI units, complete
     FramePtr preview;           ///< null when the scene is not sound or cannot be filled
     QStringList faults;         ///< a sentence each
+    std::uint64_t number = 0;   ///< of the order
   };
-  std::optional<Outcome> take() { return out_.take(); }
+  std::optional<Outcome> take();
 
 Q_SIGNALS: // from the checker's thread
   void ready();
@@ -47,7 +48,7 @@ private:
   };
   void work();
 
-  std::atomic<std::uint64_t> asked_{0}, done_{0};
+  std::atomic<std::uint64_t> asked_{0}, done_{0}, taken_{0};
   OneSlot<Order> in_;
   OneSlot<Outcome> out_;
   std::thread thread_;

@@ -208,6 +208,7 @@ QWidget* ScenePanel::editorFor(const SceneField& field) {
     editor = combo;
   } else {
     auto* line = new QLineEdit(shown);
+    line->setCursorPosition(0); // the beginning of a long value is what tells
     if (field.spec.fallback && !field.given) line->setPlaceholderText("left out: the default");
     connect(line, &QLineEdit::textEdited, this,
             [this, path](const QString& text) { changeField(path, text); });
@@ -270,7 +271,10 @@ void ScenePanel::showForm() {
         if (row == rows_.end()) continue;
         const QString shown = QString::fromStdString(field.given ? shownValue(field.text, field.spec) : "");
         if (auto* line = qobject_cast<QLineEdit*>(row->second.editor)) {
-          if (!line->hasFocus() && line->text() != shown) line->setText(shown);
+          if (!line->hasFocus() && line->text() != shown) {
+            line->setText(shown);
+            line->setCursorPosition(0);
+          }
         } else if (auto* combo = qobject_cast<QComboBox*>(row->second.editor)) {
           combo->setCurrentIndex(combo->findText(shown));
         }

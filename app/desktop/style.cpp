@@ -57,7 +57,8 @@ QPushButton[link="true"]:focus, QPushButton[link="true"]:hover { text-decoration
 QGroupBox { font-weight: 600; border: 1px solid @line; border-radius: 5px; margin-top: 9px; padding-top: 5px; }
 QGroupBox::title { subcontrol-origin: margin; left: 9px; padding: 0 4px; color: @accent; }
 #chartBar { background: #ffffff; }
-#chartBar QToolButton { color: #343a40; border: none; padding: 2px 5px; border-radius: 4px; }
+#chartBar QToolButton { color: #343a40; border: none; padding: 2px 3px; border-radius: 4px; }
+#chartBar QLineEdit, #chartBar QComboBox { background: #ffffff; color: #343a40; }
 #chartBar QToolButton:hover, #chartBar QToolButton:focus { background: #eaf2f2; }
 #chartBar QToolButton:checked { background: #d5e7e8; font-weight: 600; }
 #banner { background: @faultPaper; border: none; border-bottom: 1px solid @faultLine; }

@@ -93,6 +93,15 @@ void MainWindow::usePreset(const std::string& preset) {
   requestPicture();
 }
 
+void MainWindow::togglePanel(const QString& id, bool on) {
+  auto* dock = docks_.at(id);
+  // One that lies behind another tab is meant to come to the front, not to go.
+  const bool behind = dock->isVisible() && dock->visibleRegion().isEmpty();
+  commands_->action("panel." + id)->setChecked(on || behind);
+  dock->setVisible(on || behind);
+  if (on || behind) dock->raise();
+}
+
 void MainWindow::toggleTrack() {
   if (now_->grain < 0) return complain({"Click a grain first: its track is shown then."});
   auto& tracked = now_->view.tracks.grains;

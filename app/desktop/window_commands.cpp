@@ -84,7 +84,7 @@ std::vector<Command> MainWindow::fileRows() {
       {.id = "file.saveSession",
        .menu = menu,
        .name = "Save sess&ion...",
-       .keys = keys({"Ctrl+Alt+S"}),
+       .keys = keys({"Ctrl+Shift+T"}),
        .toolTip = "Save all that is open, with views, moments and panels; open it like any file",
        .icon = {},
        .perform = [this](bool) { chooseSessionFile(); }},
@@ -296,8 +296,7 @@ std::vector<Command> MainWindow::panelRows() {
                     .checkable = true,
                     .checked = true,
                     .perform = [this, id](bool on) {
-                      docks_.at(id)->setVisible(on);
-                      if (on) docks_.at(id)->raise();
+                      togglePanel(id, on);
                     }});
   };
   panel("view", "&View", "Ctrl+1", "How the picture is drawn");

@@ -185,14 +185,12 @@ void MainWindow::showDocument() {
   picture_->clear();
   picture_->setHint(title, current.scene ? "Press F5 or Space to run this scene." : "");
   for (auto& [id, panel] : charts_)
-    if (id != "energies" && id != "flow") panel->clear(panel->property("hint").toString());
+    panel->clear(panel->property("hint").toString());
   if (!open) {
     scene_->setScene({}, {}, false);
     run_->setScene(std::nullopt);
     accuracy_->setScene(std::nullopt);
     time_->setFrames(0, false);
-    for (const char* id : {"energies", "flow"})
-      charts_.at(id)->clear("");
     return;
   }
   scene_->setScene(now_->sceneText, QString::fromStdString(current.scene ? current.scene->file : ""),

@@ -99,7 +99,7 @@ void MainWindow::requestAnalyses(bool restart) {
   const bool beside = session_->runs() && !session_->isPaused();
   for (const auto& analysis : panelAnalyses()) {
     auto* panel = charts_.at(QString::fromStdString(analysis.id));
-    if (!panel->isVisible()) continue;
+    if (!panel->isVisible() || panel->visibleRegion().isEmpty()) continue; // hidden, or behind another tab
     if (analysis.asksQuantity) panel->offerQuantities(grainScalarNames(*now_->shown));
     AnalysisInput input;
     input.frame = now_->shown;
