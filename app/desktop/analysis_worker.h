@@ -32,8 +32,8 @@ public:
     std::optional<analysis::Results> results;
     QString fault; ///< why there is none
   };
-  bool isIdle() const; ///< nothing waits, is being worked on, or has not been taken
-  std::map<QString, Outcome> take();              ///< the newest results by id
+  bool isIdle() const;               ///< nothing waits, is being worked on, or has not been taken
+  std::map<QString, Outcome> take(); ///< the newest results by id
 
 Q_SIGNALS: // from the worker's thread
   void ready();

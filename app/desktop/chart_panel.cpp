@@ -131,17 +131,20 @@ void ChartPanel::show(analysis::Curve curve) {
 
 void ChartPanel::offerKnobs(const std::vector<ParameterSpec>& knobs) {
   if (knobs.empty()) return;
-  knobs_ = new QLineEdit(bar_);
+  knobs_ = new QLineEdit(this);
   knobs_->setObjectName("knobs");
-  knobs_->setMinimumWidth(60);
   knobs_->setAccessibleName("Knobs of the analysis");
-  knobs_->setPlaceholderText("knobs, such as " + QString::fromStdString(knobs.front().name) + "=...");
+  knobs_->setPlaceholderText(QString::fromStdString(knobs.front().name) +
+                             "=... and others, with spaces between");
   QString tip = "Knobs as name=value, with spaces between:";
   for (const auto& knob : knobs)
     tip +=
         QString("\n%1: %2").arg(QString::fromStdString(knob.name), QString::fromStdString(knob.description));
   knobs_->setToolTip(tip);
-  static_cast<QHBoxLayout*>(bar_->layout())->insertWidget(0, knobs_, 1);
+  knobs_->hide();
+  auto* shows = button("showKnobs", "Knobs", "Show the line in which the analysis can be set");
+  shows->setCheckable(true);
+  connect(shows, &QToolButton::toggled, knobs_, &QWidget::setVisible);
   connect(knobs_, &QLineEdit::editingFinished, this, [this] {
     if (knobs_->isModified()) Q_EMIT knobsChanged();
     knobs_->setModified(false);
@@ -212,7 +215,11 @@ void ChartPanel::want() {
 }
 
 void ChartPanel::resizeEvent(QResizeEvent*) {
-  bar_->setGeometry(0, height() - bar_->sizeHint().height(), width(), bar_->sizeHint().height());
+  const int bar = bar_->sizeHint().height();
+  bar_->setGeometry(0, height() - bar, width(), bar);
+  if (knobs_)
+    knobs_->setGeometry(6, height() - bar - knobs_->sizeHint().height() - 2, width() - 12,
+                        knobs_->sizeHint().height());
   want();
 }
 

@@ -41,12 +41,15 @@ std::size_t FrameStore::size() const {
 
 double FrameStore::time(std::size_t index) const {
   const std::lock_guard lock(timesMutex_);
-  return times_.at(index);
+  return times_.empty() ? 0 : times_[std::min(index, times_.size() - 1)];
 }
 
 FramePtr FrameStore::load(std::size_t index) const {
   const std::lock_guard lock(mutex_);
-  return index < onDisk_ ? disk_->load(index) : memory_.at(index - onDisk_);
+  const std::size_t count = onDisk_ + memory_.size();
+  if (count == 0) throw InputError(path_.string() + ": there is no saved frame yet");
+  index = std::min(index, count - 1);
+  return index < onDisk_ ? disk_->load(index) : memory_[index - onDisk_];
 }
 
 bool FrameStore::refresh() {

@@ -22,6 +22,8 @@ public:
 
   std::size_t size() const override;
   double time(std::size_t index) const override;
+  /// The last frame when the index is past the end: a run that goes on from a checkpoint may have dropped
+  /// some.
   FramePtr load(std::size_t index) const override;
   std::string name() const override { return path_.string(); }
 

@@ -73,8 +73,9 @@ InspectorPanel::InspectorPanel(QWidget* parent) : QWidget(parent) {
   values_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   history_ = new ChartPanel(
       "history", "Click a grain in the picture: its values, contacts and history appear here.", split);
-  split->setStretchFactor(0, 3);
-  split->setStretchFactor(1, 2);
+  history_->setMinimumHeight(170);
+  split->setStretchFactor(0, 1);
+  split->setStretchFactor(1, 1);
   column->addWidget(split);
   connect(history_, &ChartPanel::quantityChosen, this, &InspectorPanel::readHistory);
 }

@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/run/checkpoint_store.h"
-#include "vis/renderer.h"
+#include "vis/picture_record.h"
 
 #include <fmt/format.h>
 
@@ -53,24 +53,12 @@ Opened openRun(const fs::path& folder) {
   return opened;
 }
 
+/// A picture or a film of ours, which leads back to its run.
 Opened openPicture(const fs::path& file) {
-  std::map<std::string, std::string> text;
-  vis::readPng(file, &text);
-  if (!text.contains("source"))
-    throw InputError(
-        fmt::format("{}: this picture does not name the run that it shows; only pictures saved by "
-                    "this program do",
-                    file.string()));
-  if (!fs::exists(text["source"]))
-    throw InputError(
-        fmt::format("{}: the picture shows {}, which is not there any more; put it back or open it where "
-                    "it is now",
-                    file.string(), text["source"]));
-  Opened opened = openAny(text["source"]);
-  if (text.contains("view")) {
-    opened.view = vis::parseView(text["view"], file.string() + " (view inside)");
-  }
-  if (text.contains("time")) opened.time = std::stod(text["time"]);
+  const vis::PictureRecord record = vis::readRecord(file);
+  Opened opened = openAny(vis::locateSource(record, file));
+  opened.view = record.view;
+  opened.time = record.time;
   return opened;
 }
 
@@ -103,7 +91,7 @@ Opened openAny(const fs::path& path) {
     const fs::path folder = fs::absolute(path).parent_path();
     return path.filename() == "scene.toml" && isRunFolder(folder) ? openRun(folder) : openScene(path);
   }
-  if (path.extension() == ".png") return openPicture(path);
+  if (vis::isPicture(path)) return openPicture(path);
   Opened opened;
   opened.path = path;
   opened.store = FrameStore::open(path);

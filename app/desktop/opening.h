@@ -28,7 +28,8 @@ struct Opened {
   bool canResume = false;        ///< there is a checkpoint
 };
 
-/// A scene, a run folder, a segment of frames, or a picture that leads back to its run. Throws InputError.
+/// A scene, a run folder, a segment of frames, or a picture or film that leads back to its run. Throws
+/// InputError.
 Opened openAny(const std::filesystem::path& path);
 
 bool hasCheckpoint(const std::filesystem::path& runFolder);

@@ -93,6 +93,8 @@ void Session::start(bool paused) {
   simulation_ = std::make_unique<Simulation>(*current_.scene, options, current_.store);
   connect(simulation_.get(), &Simulation::changed, this, &Session::fetch);
   connect(simulation_.get(), &Simulation::finished, this, &Session::ended);
+  // What it told before somebody listened is fetched by hand.
+  QMetaObject::invokeMethod(this, &Session::fetch, Qt::QueuedConnection);
   Q_EMIT logged(static_cast<int>(LogLevel::info),
                 QString("The run is kept in %1.").arg(QString::fromStdString(current_.runFolder.string())));
   Q_EMIT stateChanged();

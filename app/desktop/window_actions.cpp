@@ -127,7 +127,7 @@ void MainWindow::showView(const vis::View& view) {
 void MainWindow::chooseFile() {
   const QString file = QFileDialog::getOpenFileName(
       this, "Open", {},
-      "Scenes, frames, pictures, sessions (*.toml *.vtkhdf *.png *.sandglass);;All files (*)");
+      "Scenes, frames, pictures, sessions (*.toml *.vtkhdf *.png *.mp4 *.sandglass);;All files (*)");
   if (!file.isEmpty()) open(file);
 }
 

@@ -295,9 +295,7 @@ std::vector<Command> MainWindow::panelRows() {
                     .icon = {},
                     .checkable = true,
                     .checked = true,
-                    .perform = [this, id](bool on) {
-                      togglePanel(id, on);
-                    }});
+                    .perform = [this, id](bool on) { togglePanel(id, on); }});
   };
   panel("view", "&View", "Ctrl+1", "How the picture is drawn");
   panel("run", "&Run", "Ctrl+2", "Stages, pace, and what may change while the run goes on");

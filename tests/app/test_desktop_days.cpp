@@ -147,7 +147,8 @@ private:
 void runHeadless(const std::filesystem::path& scene, const std::filesystem::path& folder) {
   RunOptions options;
   options.folder = folder;
-  Run(readScene(scene.string(), {"output.contacts=true", "output.checkpoint_interval=1 s"}), options).execute();
+  Run(readScene(scene.string(), {"output.contacts=true", "output.checkpoint_interval=1 s"}), options)
+      .execute();
 }
 
 } // namespace
@@ -232,7 +233,8 @@ TEST_CASE("A day of the batch user", "[desktop][days]") {
   shell(fmt::format("explain '{}/sample_runs/hopper_glass' --quick", source));
   shell(fmt::format("run '{}/sample_runs/hopper_glass' --quick --set seed=3 -o '{}'", source, run));
   shell(fmt::format("render '{}' -o '{}' --size 480x360 --every 8", run, (folder / "frames").string()));
-  shell(fmt::format("analyze '{}' -o '{}' --all", run, (folder / "curves").string()));
+  shell(fmt::format("analyze '{}' -o '{}' --gr --packing --discharge --energies", run,
+                    (folder / "curves").string()));
   REQUIRE(std::filesystem::exists(folder / "frames"));
   {
     Day day("batch user, at the desk", folder / "", folder / "unused");

@@ -115,7 +115,8 @@ TEST_CASE("A field edited in the form shows at once, is undone, and a fault stan
   auto* spacing = desktop.child<QLineEdit>("field.fill.1.spacing");
   type(spacing, "4.04 mm");
   REQUIRE(text().contains("spacing = \"4.04 mm\""));
-  REQUIRE(waitFor([&] { return desktop.window->isSettled() && desktop.window->shownFrame()->size() < grains / 4; }));
+  REQUIRE(waitFor(
+      [&] { return desktop.window->isSettled() && desktop.window->shownFrame()->size() < grains / 4; }));
   type(spacing, "fast");
   REQUIRE(settled(desktop));
   REQUIRE(desktop.child<desktop::ScenePanel>("scene")->faults().size() == 1);
@@ -199,7 +200,7 @@ TEST_CASE("A session brings tabs, views, moments and edits back", "[desktop]") {
 TEST_CASE("A picture whose run is gone says which", "[desktop]") {
   TemporaryFolder folder("desktop-gone");
   vis::writePng({2, 2, std::vector<std::uint8_t>(16, 255)}, folder / "p.png",
-                {{"source", (folder / "moved").string()}});
+                {{"source", (folder / "moved").string()}, {"view", vis::writeView({})}});
   Desktop desktop(folder / "run");
   REQUIRE(desktop.open(folder / "p.png"));
   REQUIRE(desktop.window->bannerText().contains(QString::fromStdString((folder / "moved").string())));
