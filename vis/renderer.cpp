@@ -12,6 +12,7 @@
 #include "vis/grain_layer.h"
 #include "vis/history.h"
 #include "vis/overlay.h"
+#include "vis/periodic_images.h"
 #include "vis/pick.h"
 #include "vis/read_back.h"
 #include "vis/slice_layer.h"
@@ -117,8 +118,9 @@ struct Renderer::Impl {
 
   static std::string glText(unsigned name) { return reinterpret_cast<const char*>(glGetString(name)); }
 
-  /// Everything that is drawn lies between the clipping planes: the box, grains, and `others`.
-  void setCamera(const Eigen::AlignedBox3d& box, const std::vector<Solid>& others) {
+  /// Everything that is drawn lies between the clipping planes: the box and its copies, grains, `others`.
+  void setCamera(const Eigen::AlignedBox3d& box, const std::vector<Vec3>& shifts,
+                 const std::vector<Solid>& others) {
     vtkCamera* c = scene->GetActiveCamera();
     c->SetPosition(camera.position.data());
     c->SetFocalPoint(camera.target.data());
@@ -134,7 +136,8 @@ struct Renderer::Impl {
       far = std::max(far, depth + r);
     };
     for (int k = 0; k < 8; ++k)
-      include(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)), 0);
+      for (const Vec3& shift : shifts)
+        include(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)) + shift, 0);
     for (std::size_t i = 0; i < visible.position.size(); ++i)
       include(visible.position[i], visible.radius[i]);
     for (const Solid& solid : others)
@@ -283,7 +286,7 @@ Image Renderer::draw(const Frame& frame, const View& view) {
   constexpr double thinnest = 0.6; // [pixel]
   thicken(marks, thinnest * heightAtTarget(d.camera) / over.height);
   d.marks.show(marks, false);
-  d.setCamera(box, marks);
+  d.setCamera(box, imageShifts(frame.domain, view), marks);
   d.overlay->Modified();
   d.scene->DrawOn();
   d.charts.renderer()->DrawOff();
@@ -353,6 +356,16 @@ PickResult Renderer::pick(int x, int y) const {
   PickResult result = pickAlong(rayThrough(d.camera, x, y, d.width, d.height), d.visible);
   result.half = d.leftHalf ? 1 : 0;
   return result;
+}
+
+std::vector<std::int64_t> Renderer::grainsIn(int x0, int y0, int x1, int y1) const {
+  const Impl& d = *impl_;
+  if (!d.leftHalf) return grainsInRectangle(d.visible, {d.camera, d.width, d.height}, x0, y0, x1, y1);
+  const auto& left = *d.leftHalf;
+  if (x0 < left.width)
+    return grainsInRectangle(left.visible, {left.camera, left.width, d.height}, x0, y0, x1, y1);
+  return grainsInRectangle(d.visible, {d.camera, d.width, d.height}, x0 - left.width, y0, x1 - left.width,
+                           y1);
 }
 
 Camera Renderer::resolvedCamera() const {

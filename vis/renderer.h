@@ -73,6 +73,10 @@ public:
   /// The grain under a pixel of the last drawn frame, by the same clip planes as drawing.
   PickResult pick(int x, int y) const;
 
+  /// Ids of the grains whose centres lie in a rectangle of the last picture, corners in any order, ascending;
+  /// those behind others too, clipped and hidden ones not. Of a pair, of the half in which it begins.
+  std::vector<std::int64_t> grainsIn(int x0, int y0, int x1, int y1) const;
+
   /// The camera that the last draw() used, with presets resolved: what a mouse drag starts from.
   Camera resolvedCamera() const;
 

@@ -220,6 +220,11 @@ private:
 
 } // namespace
 
+double pixelsPerMetre(const PictureGeometry& picture, double depth) {
+  if (picture.camera.orthographic) return pixelsPerMetre(picture);
+  return depth > 0 ? pixelsPerMetre(picture) / depth : 0;
+}
+
 double pixelsAcross(const Vec3& place, double radius, const PictureGeometry& picture) {
   const double depth = (place - picture.camera.position).dot(axesOf(picture.camera).forward);
   const double scale = pixelsPerMetre(picture);

@@ -117,3 +117,29 @@ TEST_CASE("a clipped grain can be neither seen nor picked, and the one behind it
   CHECK(renderer.pick(-1, 0).grain == -1);
   CHECK(renderer.pick(0, 360).grain == -1);
 }
+
+TEST_CASE("a rectangle holds the grains whose centres are in it, hidden ones too, clipped ones not") {
+  Renderer renderer;
+  Frame frame;
+  frame.id = {1, 2, 3, 4};
+  frame.position = {Vec3(-0.5, 0, 0.5), Vec3(0.5, 0, 0.5), Vec3(0.5, 1, 0.5), Vec3(0.5, 0, -0.5)};
+  frame.scalars[quantity::radius] = {0.2, 0.2, 0.2, 0.2};
+  View view = flatView(2); // 180 pixels for a metre
+  view.colouring.quantity = "";
+  renderer.draw(frame, view);
+  using Ids = std::vector<std::int64_t>;
+  CHECK(renderer.grainsIn(0, 0, 639, 359) == Ids{1, 2, 3, 4});
+  CHECK(renderer.grainsIn(420, 100, 400, 80) == Ids{2, 3}); // the pixel (410, 90)
+  CHECK(renderer.grainsIn(410, 90, 410, 90) == Ids{2, 3});
+  CHECK(renderer.grainsIn(411, 90, 430, 100).empty());
+  view.clips = {{Vec3(0, 0.5, 0), Vec3::UnitY()}};
+  renderer.draw(frame, view);
+  CHECK(renderer.grainsIn(0, 0, 639, 359) == Ids{3});
+  view.clips.clear();
+  view.camera.orthographic = false;
+  renderer.draw(frame, view); // from 20 m: the same but for the grain further back, nearer to the middle
+  // 180 / tan(15 degrees) pixels for a metre at 1 m: grain 2 at 20 m lies 16.8 pixels off the middle, 3 at
+  // 21 m 16.0.
+  CHECK(renderer.grainsIn(336, 0, 336, 359) == Ids{2, 4});
+  CHECK(renderer.grainsIn(335, 0, 335, 359) == Ids{3});
+}
