@@ -4,6 +4,7 @@
 #include "app/cli/console.h"
 #include "sim/base/error.h"
 #ifdef SANDGLASS_VIS
+#include "vis/readers/child_reader.h"
 #include "vis/readers/vtp_mesh.h"
 #endif
 
@@ -12,6 +13,9 @@
 
 int main(int argc, char** argv) {
   using namespace sandglass;
+#ifdef SANDGLASS_VIS
+  if (int code = 0; vis::serveAsReader(argc, argv, code)) return code;
+#endif
   CLI::App app{"Granular flow: simulate, render, analyse."};
   app.require_subcommand(1);
   cli::Action action;

@@ -5,6 +5,7 @@
 #include "app/desktop/screenshot.h"
 #include "app/desktop/style.h"
 #include "sim/base/error.h"
+#include "vis/readers/child_reader.h"
 #include "vis/readers/vtp_mesh.h"
 
 #include <CLI/CLI.hpp>
@@ -103,6 +104,7 @@ int show(const Arguments& a, int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+  if (int code = 0; sandglass::vis::serveAsReader(argc, argv, code)) return code;
   CLI::App app{"Sandglass: granular flow in a window."};
   Arguments arguments;
   addOptions(app, arguments);

@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/walls/mesh_file.h"
 #include "vis/gl/vtk_messages.h"
+#include "vis/readers/child_reader.h"
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
@@ -64,7 +65,7 @@ TriangleMesh readVtpMesh(const std::filesystem::path& file) {
 }
 
 void registerMeshReaders() {
-  registerMeshReader(".vtp", readVtpMesh);
+  registerMeshReader(".vtp", [](const std::filesystem::path& file) { return readVtpApart(file); });
 }
 
 } // namespace sandglass::vis

@@ -1,0 +1,189 @@
+#include "vis/readers/child_reader.h"
+
+#include "sim/base/error.h"
+#include "vis/readers/vtp_mesh.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace sandglass::vis {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* word = "--read-vtp-for-parent";
+constexpr char meshMark = 'M', faultMark = 'F';
+
+void sendAll(const void* data, std::size_t size) {
+  const char* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t sent = ::write(STDOUT_FILENO, at, size);
+    if (sent <= 0) ::_exit(3); // the parent has gone or has had enough
+    at += sent;
+    size -= static_cast<std::size_t>(sent);
+  }
+}
+
+/// 'M', number of points and of triangles, then both; or 'F' and a sentence.
+void answer(const TriangleMesh& mesh) {
+  const std::uint64_t counts[] = {mesh.points.size(), mesh.triangles.size()};
+  sendAll(&meshMark, 1);
+  sendAll(counts, sizeof counts);
+  sendAll(mesh.points.data(), mesh.points.size() * sizeof(Vec3));
+  sendAll(mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
+}
+
+class Child {
+public:
+  Child(const fs::path& program, const std::vector<std::string>& arguments) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw RunError("no pipe can be made for the reader of a file");
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    std::vector<char*> argv;
+    for (const std::string& a : arguments)
+      argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    const int failed = ::posix_spawn(&pid_, program.c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    from_ = ends[0];
+    if (failed == 0) return;
+    ::close(from_);
+    throw RunError(fmt::format("the reader '{}' cannot be started", program.string()));
+  }
+  ~Child() {
+    ::close(from_);
+    if (!ended_) {
+      ::kill(pid_, SIGKILL);
+      ::waitpid(pid_, nullptr, 0);
+    }
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// All that it says; stops at the limits, and `complete` tells whether it did not.
+  std::string listen(const ReaderLimits& limits, bool& complete) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::seconds(limits.wallSeconds);
+    std::string said;
+    std::vector<char> buffer(std::size_t{1} << 16);
+    for (complete = false; said.size() <= limits.answer;) {
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+      pollfd waiting{from_, POLLIN, 0};
+      if (left <= 0 || ::poll(&waiting, 1, static_cast<int>(left)) == 0) return said;
+      const ssize_t got = ::read(from_, buffer.data(), buffer.size());
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) {
+        complete = true;
+        return said;
+      }
+      said.append(buffer.data(), static_cast<std::size_t>(got));
+    }
+    return said;
+  }
+  int wait() {
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    ended_ = true;
+    return status;
+  }
+
+private:
+  pid_t pid_ = -1;
+  int from_ = -1;
+  bool ended_ = false;
+};
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+  throw InputError(fmt::format("{}: {}", file.string(), why));
+}
+
+TriangleMesh checkedMesh(const fs::path& file, const std::string& said) {
+  TriangleMesh mesh;
+  std::uint64_t counts[2] = {};
+  const std::size_t head = 1 + sizeof counts;
+  if (said.size() >= head) std::memcpy(counts, said.data() + 1, sizeof counts);
+  constexpr std::size_t onePoint = sizeof(Vec3), oneTriangle = sizeof(mesh.triangles[0]);
+  if (said.size() < head || counts[0] > said.size() / onePoint || counts[1] > said.size() / oneTriangle ||
+      said.size() != head + counts[0] * onePoint + counts[1] * oneTriangle)
+    refuse(file, "what its reader sent back is no mesh; check the file");
+  mesh.points.resize(counts[0]);
+  mesh.triangles.resize(counts[1]);
+  std::memcpy(static_cast<void*>(mesh.points.data()), said.data() + head, counts[0] * onePoint);
+  std::memcpy(mesh.triangles.data(), said.data() + head + counts[0] * onePoint, counts[1] * oneTriangle);
+  for (const Vec3& p : mesh.points)
+    if (!p.allFinite()) refuse(file, "a point of it is not a number; check the file");
+  for (const auto& triangle : mesh.triangles)
+    for (const int corner : triangle)
+      if (corner < 0 || static_cast<std::uint64_t>(corner) >= counts[0])
+        refuse(file, fmt::format("a triangle of it names point {} of {}; check the file", corner, counts[0]));
+  return mesh;
+}
+
+} // namespace
+
+bool serveAsReader(int argc, char** argv, int& code) {
+  if (argc != 5 || std::strcmp(argv[1], word) != 0) return false;
+  const auto limit = [](auto resource, const char* text) {
+    const rlim_t value = std::strtoull(text, nullptr, 10);
+    const rlimit both{value, value};
+    ::setrlimit(resource, &both);
+  };
+  limit(RLIMIT_AS, argv[3]);
+  limit(RLIMIT_CPU, argv[4]);
+  const rlimit none{0, 0};
+  ::setrlimit(RLIMIT_CORE, &none);
+  code = 0;
+  try {
+    answer(readVtpMesh(argv[2]));
+  } catch (const std::bad_alloc&) {
+    code = 4;
+  } catch (const std::exception& fault) {
+    sendAll(&faultMark, 1);
+    sendAll(fault.what(), std::strlen(fault.what()));
+  }
+  return true;
+}
+
+TriangleMesh readVtpApart(const fs::path& file, const ReaderLimits& limits, const fs::path& program) {
+  if (!fs::is_regular_file(file)) refuse(file, "the file cannot be opened; check its name");
+  Child child(
+      program.empty() ? "/proc/self/exe" : program,
+      {"sandglass", word, file.string(), std::to_string(limits.memory), std::to_string(limits.cpuSeconds)});
+  bool complete = false;
+  const std::string said = child.listen(limits, complete);
+  if (!complete)
+    refuse(file,
+           fmt::format("its reader took longer than {} s or sent more than {:.3g} MB and was stopped; check "
+                       "the file",
+                       limits.wallSeconds, static_cast<double>(limits.answer) / 1e6));
+  const int status = child.wait();
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !said.empty()) {
+    if (said[0] == faultMark) throw InputError(said.substr(1));
+    if (said[0] == meshMark) return checkedMesh(file, said);
+  }
+  refuse(file, fmt::format(
+                   "its reader gave up: the file is damaged, or needs more than {:.1f} GB of memory or {} s",
+                   static_cast<double>(limits.memory) / 1e9, limits.cpuSeconds));
+}
+
+} // namespace sandglass::vis
