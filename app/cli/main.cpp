@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   cli::addConvert(app, action);
   cli::addExplain(app, action);
   cli::addAnalyze(app, action);
+  cli::addCompare(app, action);
 #ifdef SANDGLASS_VIS
   vis::registerMeshReaders();
   cli::addRender(app, action);
