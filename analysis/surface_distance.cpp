@@ -101,15 +101,15 @@ private:
 };
 
 /// Uphill from x while the sphere contains `inside` (anything, when there is none).
-EmptySphere ascend(const SurfaceDistance& distance, Vec3 x, const Vec3* inside, double firstStep,
-                   double tolerance) {
+EmptySphere ascend(const SurfaceDistance& distance, const Region& region, Vec3 x, const Vec3* inside,
+                   double firstStep, double tolerance) {
   Compass compass;
   double value = distance(x), step = firstStep;
   Vec3 away = distance.toGrains(x).away;
   const auto tryAt = [&](const Vec3& c, double most) {
     // A try that is no better than what there is need not be known exactly.
     const double v = std::min(distance.toGrains(c, most).distance, distance.toWalls(c));
-    return v > most && (!inside || (c - *inside).squaredNorm() <= v * v) ? v : most;
+    return v > most && region.contains(c) && (!inside || (c - *inside).squaredNorm() <= v * v) ? v : most;
   };
   // The distance has kinks, and that is where its maxima are: directions are tried, and steps halved when
   // none of two sets helps.
@@ -139,13 +139,14 @@ EmptySphere ascend(const SurfaceDistance& distance, Vec3 x, const Vec3* inside, 
 
 } // namespace
 
-EmptySphere climb(const SurfaceDistance& distance, const Vec3& x, double firstStep, double tolerance) {
-  return ascend(distance, x, nullptr, firstStep, tolerance);
+EmptySphere climb(const SurfaceDistance& distance, const Region& region, const Vec3& x, double firstStep,
+                  double tolerance) {
+  return ascend(distance, region, x, nullptr, firstStep, tolerance);
 }
 
-EmptySphere climbAbout(const SurfaceDistance& distance, const Vec3& inside, double firstStep,
-                       double tolerance) {
-  return ascend(distance, inside, &inside, firstStep, tolerance);
+EmptySphere climbAbout(const SurfaceDistance& distance, const Region& region, const Vec3& inside,
+                       double firstStep, double tolerance) {
+  return ascend(distance, region, inside, &inside, firstStep, tolerance);
 }
 
 } // namespace sandglass::analysis

@@ -2,6 +2,7 @@
 // Distance from any point to the nearest grain surface and the nearest wall: the ground of all void sizes.
 
 #include "analysis/cell_grid.h"
+#include "analysis/region.h"
 #include "sim/frame/frame.h"
 
 #include <memory>
@@ -49,13 +50,14 @@ struct EmptySphere {
   bool atWall = false; ///< a wall is what limits it
 };
 
-/// From x uphill in the distance to the nearest surface, walls included, until no step of `tolerance` helps:
-/// an empty sphere that is (nearly) as large as it can be thereabouts.
-EmptySphere climb(const SurfaceDistance& distance, const Vec3& x, double firstStep, double tolerance);
+/// From x uphill in the distance to the nearest surface, walls included, inside the region, until no step of
+/// `tolerance` helps: an empty sphere that is (nearly) as large as it can be thereabouts.
+EmptySphere climb(const SurfaceDistance& distance, const Region& region, const Vec3& x, double firstStep,
+                  double tolerance);
 
 /// The same among the spheres that contain the point `inside`, beginning with the one about itself. Centres
 /// of such spheres make a convex set, on which the distance may still have more than one top.
-EmptySphere climbAbout(const SurfaceDistance& distance, const Vec3& inside, double firstStep,
-                       double tolerance);
+EmptySphere climbAbout(const SurfaceDistance& distance, const Region& region, const Vec3& inside,
+                       double firstStep, double tolerance);
 
 } // namespace sandglass::analysis

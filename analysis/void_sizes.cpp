@@ -82,12 +82,12 @@ std::vector<EmptySphere> unique(std::vector<EmptySphere> spheres, double diamete
 }
 
 /// Every `stride`-th void point climbed to the top of its void.
-std::vector<EmptySphere> climbed(const SurfaceDistance& distance, const VoidPoints& points, std::size_t most,
-                                 double diameter) {
+std::vector<EmptySphere> climbed(const SurfaceDistance& distance, const Region& region,
+                                 const VoidPoints& points, std::size_t most, double diameter) {
   const std::size_t stride = std::max<std::size_t>(1, points.point.size() / most);
   std::vector<EmptySphere> spheres(points.point.size() / stride);
   tbb::parallel_for(std::size_t{0}, spheres.size(), [&](std::size_t k) {
-    spheres[k] = climb(distance, points.point[k * stride], 0.1 * diameter, 1e-4 * diameter);
+    spheres[k] = climb(distance, region, points.point[k * stride], 0.1 * diameter, 1e-3 * diameter);
   });
   return spheres;
 }
@@ -117,18 +117,18 @@ std::vector<EmptySphere> holes(const Frame& frame, const VoronoiCells& cells, co
       EmptySphere& s = found[k];
       const double walls = distance.toWalls(s.centre);
       if (walls >= s.radius) return;
-      s = climb(distance, s.centre, 0.1 * diameter, 1e-4 * diameter);
+      s = climb(distance, region, s.centre, 0.1 * diameter, 1e-4 * diameter);
       s.atWall = true;
     });
   } else {
-    found = climbed(distance, points, 20000, diameter);
+    found = climbed(distance, region, points, 5000, diameter);
   }
   std::erase_if(found, [&](const EmptySphere& s) { return !(s.radius > 0) || !region.contains(s.centre); });
   return unique(std::move(found), diameter);
 }
 
 std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells& cells,
-                                          const SurfaceDistance& distance,
+                                          const SurfaceDistance& distance, const Region& region,
                                           const std::vector<EmptySphere>& holes, const VoidPoints& points,
                                           int level) {
   std::vector<EmptySphere> spheres = holes;
@@ -140,6 +140,7 @@ std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells
       Vec3 x = points.point[k];
       for (int n = 0; n < 2 * (level + 1); ++n) {
         x += step * distance.toGrains(x).away;
+        if (!region.contains(x)) break;
         if (const double radius = distance(x); radius > 0)
           way[k].push_back({distance.wrapped(x), radius, false});
       }
@@ -153,7 +154,7 @@ std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells
       const Vec3& own = frame.position[i];
       const auto add = [&](const Vec3& c, bool cut) {
         const double radius = cut ? distance(c) : (c - own).norm() - distance.largestRadius();
-        if (radius > 0) spheres.push_back({distance.wrapped(c), radius, false});
+        if (radius > 0 && region.contains(c)) spheres.push_back({distance.wrapped(c), radius, false});
       };
       for (const auto& face : cells.faces(i)) {
         if (face.other >= 0 && face.other < static_cast<int>(i)) continue;
@@ -177,10 +178,11 @@ std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells
   return spheres;
 }
 
-std::vector<double> climbedSizes(const SurfaceDistance& distance, const VoidPoints& points, double diameter) {
+std::vector<double> climbedSizes(const SurfaceDistance& distance, const Region& region,
+                                 const VoidPoints& points, double diameter) {
   std::vector<double> sizes(points.point.size());
   tbb::parallel_for(std::size_t{0}, sizes.size(), [&](std::size_t k) {
-    sizes[k] = climbAbout(distance, points.point[k], 0.1 * diameter, 6e-3 * diameter).radius;
+    sizes[k] = climbAbout(distance, region, points.point[k], 0.1 * diameter, 6e-3 * diameter).radius;
   });
   return sizes;
 }

@@ -47,12 +47,13 @@ VoronoiCells cellsForVoids(const Frame& frame, const std::optional<Vec3>& up, do
 /// spheres that the void points meet on their way uphill (unequal ones). Each is empty, so that V2 can only
 /// come out too small.
 std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells& cells,
-                                          const SurfaceDistance& distance,
+                                          const SurfaceDistance& distance, const Region& region,
                                           const std::vector<EmptySphere>& holes, const VoidPoints& points,
                                           int level);
 
 /// The largest sphere about each void point that a climb from it finds: where V2 begins.
-std::vector<double> climbedSizes(const SurfaceDistance& distance, const VoidPoints& points, double diameter);
+std::vector<double> climbedSizes(const SurfaceDistance& distance, const Region& region,
+                                 const VoidPoints& points, double diameter);
 
 /// V2 of each void point: the largest of the spheres that contains it, at least `points.distance`. Uses the
 /// calling thread's TBB arena; equal for any number of threads.

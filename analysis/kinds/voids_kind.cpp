@@ -45,7 +45,7 @@ public:
           distance.equalGrains() ? cellsForVoids(frame, context_.facts.up, d) : VoronoiCells{};
       const auto found = holes(frame, cells, distance, region, points, d);
       addHoles(found, d);
-      if (wantV2) addV2(frame, cells, distance, found, points, d);
+      if (wantV2) addV2(frame, cells, distance, region, found, points, d);
     }
     if (knobs_.boolean("grid"))
       addGrid(distanceGrid(distance, region, gridSpacing(region, d)), region, distance, d);
@@ -81,7 +81,8 @@ private:
   }
 
   void addV2(const Frame& frame, const VoronoiCells& cells, const SurfaceDistance& distance,
-             const std::vector<EmptySphere>& found, const VoidPoints& points, double d) {
+             const Region& region, const std::vector<EmptySphere>& found, const VoidPoints& points,
+             double d) {
     // Not more points than are needed: each asks for a search among millions of spheres.
     VoidPoints some;
     const auto most = static_cast<std::size_t>(knobs_.integer("v2_probes"));
@@ -91,12 +92,12 @@ private:
       some.distance.push_back(points.distance[k]);
       some.nearWall.push_back(points.nearWall[k]);
     }
-    some.distance = climbedSizes(distance, some, d);
+    some.distance = climbedSizes(distance, region, some, d);
     const int level = static_cast<int>(knobs_.integer("v2_level"));
-    const auto fine = largestContaining(some, candidateSpheres(frame, cells, distance, found, some, level),
-                                        frame.domain, d);
+    const auto fine = largestContaining(
+        some, candidateSpheres(frame, cells, distance, region, found, some, level), frame.domain, d);
     const auto coarse = largestContaining(
-        some, candidateSpheres(frame, cells, distance, found, some, level / 2), frame.domain, d);
+        some, candidateSpheres(frame, cells, distance, region, found, some, level / 2), frame.domain, d);
     for (std::size_t k = 0; k < fine.size(); ++k)
       v2Error_.push_back((fine[k] - coarse[k]) / d);
     v2_.add(fine, some.nearWall, d);
@@ -211,7 +212,7 @@ Results VoidAnalysis::results() const {
         "voids_v3", "V3 hole radii", v3_,
         equal_ ? std::string("V3: Voronoi vertices, distance to the centres less the radius, each vertex "
                              "once; wall: largest spheres that touch a wall")
-               : std::string("V3 for unequal grains: maximal empty spheres climbed to from 20000 random "
+               : std::string("V3 for unequal grains: maximal empty spheres climbed to from 5000 random "
                              "points, each once; small ones may be missed; wall: touching one"),
         largest(v3_));
     sentence += fmt::format(", V3 largest {:.4g} d", bulkOr(v3, "largest"));
@@ -259,7 +260,7 @@ AnalysisKind voidsKind() {
       .source = "Torquato 2002; Gelb & Gubbins 1999; Rycroft 2007; Sastry et al. 1997",
       .needs = {.quantities = {quantity::radius}, .grains = 1},
       .knobs = {integerKnob("probes", 200000, 100, 1e9, "random points, solid and void"),
-                integerKnob("v2_probes", 50000, 100, 1e9, "at most so many void points for V2"),
+                integerKnob("v2_probes", 20000, 100, 1e9, "at most so many void points for V2"),
                 integerKnob("v2_level", 3, 0, 20, "points on each Voronoi edge for V2"),
                 integerKnob("bins", 100, 1, 100000, "bins of the distributions"),
                 numberKnob("wall_distance", 1.5, 0, 1000,

@@ -50,11 +50,15 @@ void ResultFiles::write(const analysis::Curve& curve, const std::string& prefix)
   if (csvOnly_) return;
   writeText(stem + ".json", analysis::toJson(curve));
 #ifdef SANDGLASS_VIS
+  // A single point is no line.
+  analysis::Curve drawn = curve;
+  std::erase_if(drawn.series, [](const analysis::Series& s) { return s.x.size() < 2; });
+  if (drawn.series.empty()) return;
   if (!painter_) painter_ = std::make_unique<Painter>();
   auto text = curve.provenance;
   text["Software"] = "Sandglass";
   text["definition"] = curve.definition;
-  vis::writePng(painter_->renderer.draw(curve, 1200, 800), stem + ".png", text);
+  vis::writePng(painter_->renderer.draw(drawn, 1200, 800), stem + ".png", text);
 #endif
 }
 

@@ -118,9 +118,9 @@ TEST_CASE("V2 of a simple cubic lattice against a brute force", "[voids]") {
   const VoronoiCells cells = cellsForVoids(frame, {}, 1);
   const auto found = holes(frame, cells, distance, region, points, 1);
   const auto own = points.distance;
-  points.distance = climbedSizes(distance, points, 1);
-  const auto v2 =
-      largestContaining(points, candidateSpheres(frame, cells, distance, found, points, 7), frame.domain, 1);
+  points.distance = climbedSizes(distance, region, points, 1);
+  const auto v2 = largestContaining(
+      points, candidateSpheres(frame, cells, distance, region, found, points, 7), frame.domain, 1);
   std::size_t tooSmall = 0;
   double difference = 0;
   for (std::size_t k = 0; k < points.point.size(); ++k) {
@@ -149,13 +149,13 @@ TEST_CASE("unequal spheres: maximal spheres by climbing, holes at walls apart", 
     frame.scalars[quantity::radius][i] = 0.2;
   const SurfaceDistance distance(frame, 1, 3);
   CHECK_FALSE(distance.equalGrains());
-  const EmptySphere s = climb(distance, Vec3(0.45, 0.55, 0.03), 0.1, 1e-5);
+  const EmptySphere s = climb(distance, Region(frame, {}), Vec3(0.45, 0.55, 0.03), 0.1, 1e-5);
   CHECK(s.radius >= std::sqrt(0.5) - 0.5 - 1e-6);
   // A corner of a box without grains near: the largest sphere about it is limited by walls.
   Frame boxed = frameOf({Vec3(1, 1, 1)}, Vec3::Constant(2), {false, false, false}, 0.5);
   boxed.walls = {sceneWall("box", {{"lower", Vec3(0, 0, 0)}, {"upper", Vec3(2, 2, 2)}})};
   const SurfaceDistance inBox(boxed, 1, 3);
-  const EmptySphere corner = climb(inBox, Vec3(0.2, 0.25, 0.2), 0.1, 1e-6);
+  const EmptySphere corner = climb(inBox, Region(boxed, {}), Vec3(0.2, 0.25, 0.2), 0.1, 1e-6);
   // On the diagonal: t = sqrt(3) (1 - t) - 0.5, t = (sqrt(3) - 0.5) / (1 + sqrt(3)).
   CHECK(corner.atWall);
   CHECK(corner.radius == Approx((std::sqrt(3.0) - 0.5) / (1 + std::sqrt(3.0))).margin(1e-3));

@@ -177,9 +177,9 @@ std::string v2(const Frame& frame) {
   VoidPoints points = voidPoints(distance, region, 125000, 0, 1); // 50000 of them in voids
   const VoronoiCells cells = cellsForVoids(frame, {}, 1);
   const auto found = holes(frame, cells, distance, region, points, 1);
-  points.distance = climbedSizes(distance, points, 1);
-  const auto sizes =
-      largestContaining(points, candidateSpheres(frame, cells, distance, found, points, 3), frame.domain, 1);
+  points.distance = climbedSizes(distance, region, points, 1);
+  const auto sizes = largestContaining(
+      points, candidateSpheres(frame, cells, distance, region, found, points, 3), frame.domain, 1);
   return fmt::format("mean {:.9f}",
                      std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size()));
 }
