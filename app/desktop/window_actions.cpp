@@ -156,7 +156,9 @@ void MainWindow::savePicture(const QString& file) {
   if (!now_->shown) return;
   const Opened& current = session_->current();
   const auto source = std::filesystem::absolute(current.runFolder.empty() ? current.path : current.runFolder);
-  drawing_->save({now_->shown, now_->view, file.toStdString(), {{"source", source.string()}}, current.store});
+  std::map<std::string, std::string> text{{"source", source.string()}};
+  if (current.store->size() > 0) text["frame"] = std::to_string(current.store->nearest(now_->shown->time));
+  drawing_->save({now_->shown, now_->view, file.toStdString(), std::move(text), current.store});
 }
 
 void MainWindow::saveScene(const QString& file) {
