@@ -86,6 +86,7 @@ Curve GrainStatistics::shares(const std::string& name, const std::string& title,
 }
 
 std::string withError(double value, double error) {
+  if (std::isnan(value)) return "none";
   return std::isfinite(error) ? fmt::format("{:.4g} +- {:.1g}", value, error) : fmt::format("{:.4g}", value);
 }
 

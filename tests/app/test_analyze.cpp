@@ -120,3 +120,26 @@ TEST_CASE("what analyze refuses, it refuses with a sentence", "[analyze]") {
   CHECK(none.code == 2);
   CHECK_THAT(none.text, Contains("nowhere"));
 }
+
+TEST_CASE("analyses of the registry are options with knobs, and wrong knobs are sentences", "[analyze]") {
+  const TemporaryFolder out("analyze-knobs");
+  const std::string folder = " -o " + (out / "o").string();
+  CHECK_THAT(program("analyze --list").text, Contains("--bond-angles") && Contains("voids.probes = 200000"));
+  const Result good =
+      program("analyze " + run().string() + folder +
+              " --bond-angles --coordination --knob bond_angles.bins=45 --knob bond_angles.cutoff=2");
+  INFO(good.text);
+  CHECK(good.code == 0);
+  CHECK_THAT(content(out / "o" / "bond_angles.csv"), Contains("# provenance knob bins: 45"));
+  CHECK(fs::exists(out / "o" / "coordination_grains.csv"));
+  const auto refused = [&](const std::string& options, const std::string& sentence) {
+    const Result result = program("analyze " + run().string() + folder + options);
+    INFO(result.text);
+    CHECK(result.code == 2);
+    CHECK_THAT(result.text, Contains(sentence));
+  };
+  refused(" --order --knob order.bins=many", "order.bins is 'many', but must be a whole number");
+  refused(" --order --knob order.colour=1", "no knob 'colour'");
+  refused(" --order --knob colour", "must read like gr.bins=400");
+  refused(" --forces", "needs contacts");
+}
