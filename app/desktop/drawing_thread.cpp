@@ -15,7 +15,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double shortestInterval = 0.25; ///< [s] between pictures while a simulation runs
+constexpr double shortestInterval = 0.35; ///< [s] between pictures while a simulation runs
 constexpr double chartInterval = 2.5;     ///< [s] between charts while a simulation runs
 constexpr double share = 0.4;             ///< of one core, for drawing while a simulation runs
 constexpr int nice = 1;                   ///< the pace spares the simulation; more would starve the picture

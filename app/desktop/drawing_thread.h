@@ -3,7 +3,7 @@
 // for files. Orders go in through a slot of one place per kind, so that stale ones are never drawn; results
 // come out through a slot of one place, fetched when pictureReady() says so.
 //
-// While a simulation runs, the thread draws at a lower priority, at most four pictures a second, and rests
+// While a simulation runs, the thread draws at a lower priority, at most three pictures a second, and rests
 // after each one for as long as keeps it within its share of one core; a picture with the mouse button down
 // does not wait.
 
