@@ -14,7 +14,7 @@
 #include "sim/walls/wall_registry.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 #include <voro++/voro++.hh>
 
 #include <chrono>
@@ -91,10 +91,12 @@ public:
   /// The work returns its check.
   void add(const std::string& name, const std::string& program, std::size_t threads, std::size_t grains,
            const std::function<std::string()>& work) {
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    // An arena of its own: that of the main thread keeps the size which it had when it was first used.
+    tbb::task_arena arena(static_cast<int>(threads));
     const auto wall = std::chrono::steady_clock::now();
     const auto cpu = std::clock();
-    const std::string check = work();
+    std::string check;
+    arena.execute([&] { check = work(); });
     const double spentCpu = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
     const std::chrono::duration<double> spentWall = std::chrono::steady_clock::now() - wall;
     const std::string row =
