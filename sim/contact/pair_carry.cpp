@@ -28,12 +28,13 @@ PairCarrier::PairCarrier(const PairListing& past, const double* pastHistory, Pai
       empty_(static_cast<std::int32_t>(past.entries << 1)), historySize_(historySize),
       imaged_(!now.shiftOf.empty()), sameCodes_(past.codes.reach == now.codes.reach) {}
 
-void PairCarrier::carry(std::int64_t i, const std::int32_t* partners, std::int64_t count, std::int64_t p) {
+void PairCarrier::carry(std::int64_t i, const std::int32_t* partners, std::int64_t count,
+                        const std::int64_t* places) {
   static_assert(PairListing::slotCount == 8);
   const std::int32_t grain = order_[i];
   if (grain >= past_.grains) { // it is new
     for (std::int64_t k = 0; k < count; ++k)
-      startAnew(p + k);
+      startAnew(places[k]);
     return;
   }
   const __m256i entries = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(slotsOf(grain)));
@@ -45,13 +46,14 @@ void PairCarrier::carry(std::int64_t i, const std::int32_t* partners, std::int64
   row.entries.back() = empty_;
   row.full = row.entries[PairListing::slotCount - 1] != empty_;
   if (historySize_ == 3)
-    carryRow<3>(row, partners, count, p);
+    carryRow<3>(row, partners, count, places);
   else
-    carryRow<-1>(row, partners, count, p);
+    carryRow<-1>(row, partners, count, places);
 }
 
 template <int fixedSize>
-void PairCarrier::carryRow(const Row& row, const std::int32_t* partners, std::int64_t count, std::int64_t p) {
+void PairCarrier::carryRow(const Row& row, const std::int32_t* partners, std::int64_t count,
+                           const std::int64_t* places) {
   constexpr std::uint64_t lane = PairListing::lane;
   const std::uint64_t size = fixedSize < 0 ? historySize_ : fixedSize;
   double* const now = now_.history.data();
@@ -61,7 +63,8 @@ void PairCarrier::carryRow(const Row& row, const std::int32_t* partners, std::in
   const std::uint8_t* const shiftOf = imaged_ ? now_.shiftOf.data() : nullptr;
   const std::uint8_t* const pastShiftOf = past_.shiftOf.data();
   const bool otherCodes = !sameCodes_;
-  for (std::int64_t k = 0; k < count; ++k, ++p) {
+  for (std::int64_t k = 0; k < count; ++k) {
+    const std::int64_t p = places[k];
     // Which pairs are new cannot be foretold, so there is no branch on it: they find the empty entry, and the
     // zeros behind the last old history.
     const std::int32_t partner = order[partners[k]];

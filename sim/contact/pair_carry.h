@@ -22,14 +22,14 @@ public:
               const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& wrapped,
               int historySize);
 
-  /// Pairs p, p + 1, ... of the row of grain i, with `count` partners: copies histories and live flags, or
+  /// The row of grain i, `count` partners whose pairs stand at `places`: copies histories and live flags, or
   /// sets them to zero. The pairs are written already.
-  void carry(std::int64_t i, const std::int32_t* partners, std::int64_t count, std::int64_t p);
+  void carry(std::int64_t i, const std::int32_t* partners, std::int64_t count, const std::int64_t* places);
 
 private:
   struct Row; ///< a grain whose old contacts are at hand
   template <int fixedSize>
-  void carryRow(const Row& row, const std::int32_t* partners, std::int64_t count, std::int64_t p);
+  void carryRow(const Row& row, const std::int32_t* partners, std::int64_t count, const std::int64_t* places);
   void startAnew(std::int64_t p);
   bool sameImage(std::int64_t old, std::int64_t p) const;
   std::int64_t find(const Row& row, unsigned matches, std::int32_t partner, std::int64_t p) const;

@@ -23,9 +23,8 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
       std::all_of(grains.material.begin(), grains.material.end(), [](std::uint8_t m) { return m == 0; });
   view_.history = list.history();
   view_.historySize = list.historySize();
-  view_.output = &list.output()->x;
   view_.outputQuads = list.outputQuads();
-  view_.slots = list.slots(0);
+  view_.places = list.places();
   view_.readsSpin = laws_.readsSpin();
   view_.radiusArm = laws_.fullRadiusArm();
   view_.reads = laws_.reads();
@@ -57,11 +56,14 @@ void PairForces::fillBlock(std::int64_t first, int count, double dt, ContactBloc
   kernel_->fill(view_, first, count, b, columns);
 }
 
-void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch) const {
-  for (std::int64_t first = range.begin; first < range.end; first += ContactBlock::capacity) {
-    const int count = static_cast<int>(std::min<std::int64_t>(ContactBlock::capacity, range.end - first));
+void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch,
+                          double* out) const {
+  constexpr int capacity = ContactBlock::capacity;
+  for (std::int64_t first = range.begin; first < range.end;
+       first += capacity, out += capacity * 4 * view_.outputQuads) {
+    const int count = static_cast<int>(std::min<std::int64_t>(capacity, range.end - first));
     if (fusedLoop_) {
-      if (fusedLoop_(view_, fused_, first, first + count, dt, keepHistory) <= overlapLength_) continue;
+      if (fusedLoop_(view_, fused_, first, first + count, dt, keepHistory, out) <= overlapLength_) continue;
       fillBlock(first, count, dt, scratch.block, scratch.columns); // grains have not moved: who was it?
       reportOverlaps(first, scratch);
       continue;
@@ -69,7 +71,7 @@ void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Sc
     fillBlock(first, count, dt, scratch.block, scratch.columns);
     applyLaws(first, scratch);
     reportOverlaps(first, scratch);
-    kernel_->write(view_, first, scratch.block, scratch.columns, keepHistory);
+    kernel_->write(view_, first, scratch.block, scratch.columns, keepHistory, out);
   }
 }
 

@@ -39,6 +39,7 @@ public:
     PairColumns columns;
     std::vector<PairEvent> events;
     DeepestOverlap deepest;
+    AlignedVector<double> ring; ///< outputs of a chunk: PairList::window
   };
 
   explicit PairForces(const LawStack& laws) : laws_(laws) {}
@@ -51,9 +52,9 @@ public:
   const ParticleView& view() const { return view_; }
   KernelWidth width() const { return laws_.width(); }
 
-  /// Evaluates the pairs of a range that starts and ends at multiples of PairList::lane: outputs and, unless
-  /// `keepHistory`, histories.
-  void evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch) const;
+  /// Evaluates the pairs of a range that starts and ends at multiples of PairList::lane: outputs, which begin
+  /// at `out`, and, unless `keepHistory`, histories.
+  void evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, double* out) const;
 
   /// Energy stored in all contacts [J], with histories as the step of length dt would leave them.
   double storedEnergy(double dt) const;

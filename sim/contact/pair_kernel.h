@@ -25,9 +25,8 @@ struct ParticleView {
   bool oneMaterial = true; ///< all grains are of material 0
   double* history = nullptr;
   int historySize = 0;
-  double* output = nullptr;
   int outputQuads = 1; ///< force; with friction also torque over radius; with rolling also a couple
-  const std::int32_t* slots = nullptr;
+  const std::int32_t* places = nullptr; ///< eight a grain: (place in the ring << 1 | side)
   bool readsSpin = false, radiusArm = false;
   unsigned reads = 0;                       ///< LawColumns
   double oneRadius = 0, oneInverseMass = 0; ///< of all grains; 0 where they differ
@@ -54,11 +53,11 @@ struct Speeds {
 struct Kernel {
   /// Fills geometry, motion and history of `count` pairs from `first`; both are multiples of 8. Forces: zero.
   void (*fill)(const ParticleView&, std::int64_t first, int count, ContactBlock&, PairColumns&);
-  /// Writes histories (unless `keepHistory`) and outputs.
+  /// Writes histories (unless `keepHistory`) and outputs, which begin at `out`.
   void (*write)(const ParticleView&, std::int64_t first, const ContactBlock&, const PairColumns&,
-                bool keepHistory);
-  /// Sums what the slots of `count` grains from `first` point at.
-  void (*sum)(const ParticleView&, std::int64_t first, int count, GroupSums&);
+                bool keepHistory, double* out);
+  /// Sums what the places of `count` grains from `first` hold in a chunk's ring of outputs.
+  void (*sum)(const ParticleView&, std::int64_t first, int count, const double* ring, GroupSums&);
   /// Kick and drift of a group: v += dt (f/m + g), x += dt v; `roll` by 5/2 dt/m (t + couple/radius).
   void (*move)(const ParticleView&, std::int64_t first, int count, const GroupSums&, double dt,
                const double* gravity, double speedLimit, Speeds&);

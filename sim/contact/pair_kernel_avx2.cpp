@@ -13,24 +13,25 @@ namespace {
 template <bool turning, bool spin>
 inline void load(const ParticleView& v, std::int64_t first, int count, ContactBlock& b, PairColumns& p) {
   for (int c = 0; c < count; c += 4) {
-    const FourPairs pairs = loadFour<turning, spin>(v, first + c);
-    _mm256_store_pd(b.nx + c, pairs.place.x);
-    _mm256_store_pd(b.ny + c, pairs.place.y);
-    _mm256_store_pd(b.nz + c, pairs.place.z);
-    _mm256_store_pd(p.sum + c, pairs.place.w);
-    _mm256_store_pd(b.vtx + c, pairs.motion.x);
-    _mm256_store_pd(b.vty + c, pairs.motion.y);
-    _mm256_store_pd(b.vtz + c, pairs.motion.z);
-    _mm256_store_pd(p.inverseMass + c, pairs.motion.w);
+    const Columns places = placesOfFour<turning>(v, first + c);
+    const FourMotions moves = motionsOfFour<turning, spin>(v, first + c);
+    _mm256_store_pd(b.nx + c, places.x);
+    _mm256_store_pd(b.ny + c, places.y);
+    _mm256_store_pd(b.nz + c, places.z);
+    _mm256_store_pd(p.sum + c, places.w);
+    _mm256_store_pd(b.vtx + c, moves.motion.x);
+    _mm256_store_pd(b.vty + c, moves.motion.y);
+    _mm256_store_pd(b.vtz + c, moves.motion.z);
+    _mm256_store_pd(p.inverseMass + c, moves.motion.w);
     if constexpr (turning) {
-      _mm256_store_pd(p.rollX + c, pairs.roll.x);
-      _mm256_store_pd(p.rollY + c, pairs.roll.y);
-      _mm256_store_pd(p.rollZ + c, pairs.roll.z);
+      _mm256_store_pd(p.rollX + c, moves.roll.x);
+      _mm256_store_pd(p.rollY + c, moves.roll.y);
+      _mm256_store_pd(p.rollZ + c, moves.roll.z);
     }
     if constexpr (spin) {
-      _mm256_store_pd(b.wx + c, pairs.spin.x);
-      _mm256_store_pd(b.wy + c, pairs.spin.y);
-      _mm256_store_pd(b.wz + c, pairs.spin.z);
+      _mm256_store_pd(b.wx + c, moves.spin.x);
+      _mm256_store_pd(b.wy + c, moves.spin.y);
+      _mm256_store_pd(b.wz + c, moves.spin.z);
     }
   }
 }
@@ -50,13 +51,13 @@ void fill(const ParticleView& v, std::int64_t first, int count, ContactBlock& b,
 }
 
 void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, const PairColumns& p,
-           bool keepHistory) {
+           bool keepHistory, double* output) {
   if (!keepHistory) writeHistory(v, first, b);
   OutputColumns o;
   outputs(b, p, v.outputQuads > 1, o);
   const std::int64_t stride = 4 * v.outputQuads;
   for (int c = 0; c < b.size; c += 4) {
-    double* out = v.output + (first + c) * stride;
+    double* out = output + c * stride;
     const auto at = [c](const double* column) { return _mm256_load_pd(column + c); };
     scatter(at(o.fx), at(o.fy), at(o.fz), out, stride);
     if (stride > 4) scatter(at(o.tx), at(o.ty), at(o.tz), out + 4, stride);
@@ -64,16 +65,16 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
   }
 }
 
-void sum(const ParticleView& v, std::int64_t first, int count, GroupSums& s) {
+void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
   alignas(32) static const std::uint64_t signs[2][4] = {{0, 0, 0, 0},
                                                         {1ull << 63, 1ull << 63, 1ull << 63, 1ull << 63}};
   const std::int64_t stride = 4 * v.outputQuads;
-  const std::int32_t* slot = v.slots + first * 8;
+  const std::int32_t* slot = v.places + first * 8;
   for (int i = 0; i < count; ++i, slot += 8) {
     __m256d force = _mm256_setzero_pd(), torque = force, couple = force;
     for (int k = 0; k < 8; ++k) {
       const std::int64_t entry = slot[k];
-      const double* out = v.output + (entry >> 1) * stride;
+      const double* out = ring + (entry >> 1) * stride;
       const __m256d sign = _mm256_load_pd(reinterpret_cast<const double*>(signs[entry & 1]));
       force = _mm256_add_pd(force, _mm256_xor_pd(_mm256_load_pd(out), sign));
       if (stride < 8) continue;

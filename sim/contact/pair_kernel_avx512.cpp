@@ -15,26 +15,31 @@ namespace {
 template <bool turning, bool spin, bool radiusArm>
 inline void geometry(const ParticleView& v, std::int64_t first, int count, ContactBlock& b, PairColumns& p) {
   for (int c = 0; c < count; c += 8) {
-    const EightPairs pairs = loadEight<turning, spin>(v, first + c);
-    const Columns &x = pairs.place, &y = pairs.motion;
-    PairState<__m512d> pair{{x.x, x.y, x.z}, x.w, {y.x, y.y, y.z}, {}};
-    if constexpr (turning) pair.roll = {pairs.roll.x, pairs.roll.y, pairs.roll.z};
+    const Columns x = placesOfEight<turning>(v, first + c);
+    const EightMotions moves = motionsOfEight<turning, spin>(v, first + c);
+    const Columns& y = moves.motion;
+    const Vector3<__m512d> apart{x.x, x.y, x.z};
     __m512d distance;
-    const __m512d inverse = inverseDistance<ExactAvx512>(pair.apart, distance);
-    const ContactState<__m512d> contact =
-        contactState<ExactAvx512, turning>(pair, distance, inverse, radiusArm);
-    _mm512_store_pd(b.nx + c, contact.n.x);
-    _mm512_store_pd(b.ny + c, contact.n.y);
-    _mm512_store_pd(b.nz + c, contact.n.z);
-    _mm512_store_pd(b.overlap + c, contact.overlap);
+    const Vector3<__m512d> n = times(inverseDistance<ExactAvx512>(apart, distance), apart);
+    Vector3<__m512d> roll{};
+    __m512d arm = _mm512_set1_pd(1.0);
+    if constexpr (turning) {
+      roll = {moves.roll.x, moves.roll.y, moves.roll.z};
+      if (!radiusArm) arm = distance / x.w;
+      _mm512_store_pd(p.arm + c, arm);
+    }
+    const ContactMotion<__m512d> contact = contactMotion<ExactAvx512, turning>(n, {y.x, y.y, y.z}, roll, arm);
+    _mm512_store_pd(b.nx + c, n.x);
+    _mm512_store_pd(b.ny + c, n.y);
+    _mm512_store_pd(b.nz + c, n.z);
+    _mm512_store_pd(b.overlap + c, x.w - distance);
     _mm512_store_pd(b.vn + c, contact.vn);
     _mm512_store_pd(p.sum + c, x.w);
     _mm512_store_pd(p.inverseMass + c, y.w);
-    if constexpr (turning) _mm512_store_pd(p.arm + c, contact.arm);
     if constexpr (spin) {
-      _mm512_store_pd(b.wx + c, pairs.spin.x);
-      _mm512_store_pd(b.wy + c, pairs.spin.y);
-      _mm512_store_pd(b.wz + c, pairs.spin.z);
+      _mm512_store_pd(b.wx + c, moves.spin.x);
+      _mm512_store_pd(b.wy + c, moves.spin.y);
+      _mm512_store_pd(b.wz + c, moves.spin.z);
     }
     _mm512_store_pd(b.vtx + c, contact.slip.x);
     _mm512_store_pd(b.vty + c, contact.slip.y);
@@ -61,12 +66,10 @@ void fill(const ParticleView& v, std::int64_t first, int count, ContactBlock& b,
 }
 
 /// As outputs(), in registers.
-template <int quads>
-inline void writeOutputs(const ParticleView& v, std::int64_t first, const ContactBlock& b,
-                         const PairColumns& p) {
+template <int quads> inline void writeOutputs(const ContactBlock& b, const PairColumns& p, double* output) {
   constexpr std::int64_t stride = 4 * quads;
   for (int c = 0; c < b.size; c += 8) {
-    double* out = v.output + (first + c) * stride;
+    double* out = output + c * stride;
     const auto at = [c](const double* column) { return _mm512_load_pd(column + c); };
     const Vector3<__m512d> n{at(b.nx), at(b.ny), at(b.nz)}, tangential{at(b.ftx), at(b.fty), at(b.ftz)};
     const Vector3<__m512d> f = plus<ExactAvx512>(tangential, at(b.normalForce), n);
@@ -82,28 +85,29 @@ inline void writeOutputs(const ParticleView& v, std::int64_t first, const Contac
 }
 
 void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, const PairColumns& p,
-           bool keepHistory) {
+           bool keepHistory, double* output) {
   if (!keepHistory) writeHistory(v, first, b);
   if (v.outputQuads == 1)
-    writeOutputs<1>(v, first, b, p);
+    writeOutputs<1>(b, p, output);
   else if (v.outputQuads == 2)
-    writeOutputs<2>(v, first, b, p);
+    writeOutputs<2>(b, p, output);
   else
-    writeOutputs<3>(v, first, b, p);
+    writeOutputs<3>(b, p, output);
 }
 
 alignas(64) constexpr std::uint64_t signs[2][8] = {
     {0, 0, 0, 0, 0, 0, 0, 0}, {1ull << 63, 1ull << 63, 1ull << 63, 1ull << 63, 0, 0, 0, 0}};
 
-template <int quads> inline void sums(const ParticleView& v, std::int64_t first, int count, GroupSums& s) {
-  const std::int32_t* slot = v.slots + first * 8;
-  const char* outputs = reinterpret_cast<const char*>(v.output);
+template <int quads>
+inline void sums(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
+  const std::int32_t* slot = v.places + first * 8;
+  const char* outputs = reinterpret_cast<const char*>(ring);
   for (int i = 0; i < count; ++i, slot += 8) {
     __m512d total = _mm512_setzero_pd(); // force and torque
     __m256d couple = _mm256_setzero_pd();
     for (int k = 0; k < 8; ++k) {
-      const std::uint64_t entry = static_cast<std::uint32_t>(slot[k]); // pair in the upper bits, side below
-      const double* out = reinterpret_cast<const double*>(outputs + (entry & ~1ull) * (16 * quads));
+      const std::uint64_t entry = static_cast<std::uint32_t>(slot[k]); // place in the upper bits, side below
+      const auto* out = reinterpret_cast<const double*>(outputs + (entry & ~1ull) * (16 * quads));
       const std::uint64_t* sign = signs[entry & 1];
       if constexpr (quads == 1)
         total += _mm512_zextpd256_pd512(
@@ -121,13 +125,13 @@ template <int quads> inline void sums(const ParticleView& v, std::int64_t first,
   }
 }
 
-void sum(const ParticleView& v, std::int64_t first, int count, GroupSums& s) {
+void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
   if (v.outputQuads == 1)
-    sums<1>(v, first, count, s);
+    sums<1>(v, first, count, ring, s);
   else if (v.outputQuads == 2)
-    sums<2>(v, first, count, s);
+    sums<2>(v, first, count, ring, s);
   else
-    sums<3>(v, first, count, s);
+    sums<3>(v, first, count, ring, s);
 }
 
 } // namespace

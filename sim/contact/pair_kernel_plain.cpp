@@ -38,12 +38,12 @@ void fill(const ParticleView& v, std::int64_t first, int count, ContactBlock& b,
 }
 
 void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, const PairColumns& p,
-           bool keepHistory) {
+           bool keepHistory, double* output) {
   if (!keepHistory) writeHistory(v, first, b);
   OutputColumns o;
   outputs(b, p, v.outputQuads > 1, o);
   for (int c = 0; c < b.size; ++c) {
-    double* out = v.output + (first + c) * 4 * v.outputQuads;
+    double* out = output + c * 4 * v.outputQuads;
     out[0] = o.fx[c];
     out[1] = o.fy[c];
     out[2] = o.fz[c];
@@ -58,15 +58,15 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
   }
 }
 
-void sum(const ParticleView& v, std::int64_t first, int count, GroupSums& s) {
+void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
   const int stride = 4 * v.outputQuads;
   for (int i = 0; i < count; ++i) {
     double* to = s.at[i];
     for (int k = 0; k < 12; ++k)
       to[k] = 0.0;
     for (int slot = 0; slot < 8; ++slot) {
-      const std::int32_t entry = v.slots[(first + i) * 8 + slot];
-      const double* out = v.output + static_cast<std::int64_t>(entry >> 1) * stride;
+      const std::int32_t entry = v.places[(first + i) * 8 + slot];
+      const double* out = ring + static_cast<std::int64_t>(entry >> 1) * stride;
       const double sign = entry & 1 ? -1.0 : 1.0;
       for (int k = 0; k < 3; ++k)
         to[k] += sign * out[k];

@@ -20,20 +20,27 @@ template <bool turning, class Real>
 inline void finishGeometry(ContactBlockOf<Real>& b, PairColumnsOf<Real>& p, bool radiusArm) {
   using A = ScalarArithmetic;
   LANES(c) {
-    PairState<Real> pair{{b.nx[c], b.ny[c], b.nz[c]}, p.sum[c], {b.vtx[c], b.vty[c], b.vtz[c]}, {}};
-    if constexpr (turning) pair.roll = {p.rollX[c], p.rollY[c], p.rollZ[c]};
+    const Vector3<Real> apart{b.nx[c], b.ny[c], b.nz[c]};
     Real distance;
-    const Real inverse = inverseDistance<A>(pair.apart, distance);
-    const ContactState<Real> contact = contactState<A, turning>(pair, distance, inverse, radiusArm);
-    b.nx[c] = contact.n.x;
-    b.ny[c] = contact.n.y;
-    b.nz[c] = contact.n.z;
-    b.overlap[c] = contact.overlap;
+    const Vector3<Real> n = times(inverseDistance<A>(apart, distance), apart);
+    Vector3<Real> roll{};
+    Real arm = 1;
+    if constexpr (turning) {
+      roll = {p.rollX[c], p.rollY[c], p.rollZ[c]};
+      // Contact arms over radii add up to the distance, so angular momentum is kept.
+      if (!radiusArm) arm = distance / p.sum[c];
+    }
+    const ContactMotion<Real> contact =
+        contactMotion<A, turning>(n, Vector3<Real>{b.vtx[c], b.vty[c], b.vtz[c]}, roll, arm);
+    b.nx[c] = n.x;
+    b.ny[c] = n.y;
+    b.nz[c] = n.z;
+    b.overlap[c] = p.sum[c] - distance;
     b.vn[c] = contact.vn;
     b.vtx[c] = contact.slip.x;
     b.vty[c] = contact.slip.y;
     b.vtz[c] = contact.slip.z;
-    p.arm[c] = contact.arm;
+    p.arm[c] = arm;
   }
 }
 

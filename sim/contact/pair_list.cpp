@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/contact/pair_carry.h"
+#include "sim/contact/pair_order.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@ namespace sandglass {
 namespace {
 
 constexpr std::int64_t grainsPerPiece = 2048;
-constexpr std::int64_t grainsPerChunk = 2048, mostChunks = 16;
+constexpr std::int64_t grainsPerChunk = 4096, mostChunks = 16;
 constexpr std::int64_t groupsPerBlock = 8, mostBlocks = 64; ///< least and most
 
 /// Three small signed counters in one integer that orders like the tuple.
@@ -35,11 +36,28 @@ template <class Vector> void makeRoom(Vector& values, std::int64_t n, std::int64
   values.resize(static_cast<std::size_t>(n));
 }
 
+bool byGrain(const PairListing::Extra& s, const PairListing::Extra& t) {
+  return s.grain < t.grain;
+}
+
+/// Parts, ordered by grain, one behind the other, and where each group of grains begins.
+void gather(const std::vector<std::vector<PairListing::Extra>>& parts, std::int64_t groups,
+            std::vector<PairListing::Extra>& all, std::vector<std::int32_t>& groupFirst) {
+  all.clear();
+  for (const auto& part : parts)
+    all.insert(all.end(), part.begin(), part.end());
+  groupFirst.assign(static_cast<std::size_t>(groups) + 1, 0);
+  for (const PairListing::Extra& e : all)
+    ++groupFirst[e.grain / PairListing::group + 1];
+  for (std::size_t g = 1; g < groupFirst.size(); ++g)
+    groupFirst[g] += groupFirst[g - 1];
+}
+
 } // namespace
 
 PairList::PairList(const Domain& domain, int historySize, int outputQuads, bool keepsLive)
     : domain_(domain), historySize_(historySize), outputQuads_(outputQuads), keepsLive_(keepsLive),
-      output_(static_cast<std::size_t>(outputQuads)) {
+      memory_(static_cast<std::size_t>(outputQuads)) {
   for (int k = 0; k < 3; ++k)
     periodic_ = periodic_ || domain.periodic[k];
   now_.groupExtras.assign(1, 0);
@@ -47,8 +65,8 @@ PairList::PairList(const Domain& domain, int historySize, int outputQuads, bool 
 
 void PairList::build(GrainStore& grains, double range, Parallel& parallel,
                      const std::vector<std::uint8_t>& drop, const Allow& allow) {
-  grid_.sort(grains, domain_, range, parallel, drop, output_);
-  grains.reorder(grid_.order(), parallel, output_);
+  grid_.sort(grains, domain_, range, parallel, drop, memory_);
+  grains.reorder(grid_.order(), parallel, memory_);
   std::swap(now_, past_);
   std::swap(now_.history, past_.history); // stays
   PairCarrier::retire(past_);
@@ -61,19 +79,19 @@ void PairList::build(GrainStore& grains, double range, Parallel& parallel,
   search(parallel);
   layOut();
   writeRows(grains, parallel);
-  makeRoom(output_, (now_.entries + 1) * outputQuads_);
-  std::fill(output_.end() - outputQuads_, output_.end(), Quad{});
+  const auto outputs = static_cast<std::size_t>(crossing_.end * outputQuads_);
+  if (memory_.size() < outputs) memory_.resize(outputs);
   link(parallel);
+  findPlaces(parallel);
 }
 
-/// Parts of the output array for the columns and for the old histories: as much memory of their own would be
-/// a fifth of all that a grain takes.
+/// Room for the columns and for the old histories.
 void PairList::lendMemory(Parallel& parallel) {
   const std::size_t columns = GrainColumns::numbers(now_.grains), old = now_.history.size(),
                     zeros = static_cast<std::size_t>(lane * historySize_);
   const std::size_t quads = (columns + old + zeros) / 4 + 1;
-  if (output_.size() < quads) output_.resize(quads);
-  double* const memory = &output_[0].x;
+  if (memory_.size() < quads) memory_.resize(quads);
+  double* const memory = &memory_[0].x;
   columns_ = GrainColumns(now_.grains, memory);
   pastHistory_ = memory + columns;
   parallel.forRange(static_cast<std::int64_t>(old), 16384, [&](std::int64_t first, std::int64_t last) {
@@ -200,6 +218,7 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
   const bool carries = historySize_ > 0 || keepsLive_;
   const std::int64_t* id = grains.id.data();
   parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
+    PairOrder order;
     PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), grid_.wrapped(), historySize_);
     for (std::int64_t b = first; b < last; ++b) {
       const Block& block = blocks_[b];
@@ -207,38 +226,35 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
       const std::int32_t* partner = block.rows.partner.data();
       const std::uint8_t* code = periodic_ ? block.rows.code.data() : nullptr;
       std::int64_t inside = block.firstPair, crossing = block.firstCrossing;
-      const auto write = [&](std::int64_t i, std::int64_t count, std::int64_t p) {
-        const auto me = static_cast<std::int32_t>(i);
-        const std::int64_t mine = id[i];
-        for (std::int64_t k = 0; k < count; ++k) {
-          const std::int32_t j = partner[k];
-          const bool turned = mine > id[j]; // oriented by id
-          now_.pairs[p + k] = {turned ? j : me, turned ? me : j};
-          if (!code) continue;
-          const int seen = code[k]; // turning a pair round mirrors its image
-          now_.shiftOf[p + k] = static_cast<std::uint8_t>(turned ? now_.codes.mirrored(seen) : seen);
+      for (std::int64_t first = block.firstGrain; first < block.lastGrain; first += group) {
+        const std::int64_t last = std::min(first + group, block.lastGrain);
+        const std::int64_t* place =
+            order.place({first, last, rowLength_.data() + first, partner, code, chunkEnd}, columns_, grains,
+                        now_.codes.shift.data(), inside, crossing);
+        for (std::int64_t i = first; i < last; ++i) {
+          const auto me = static_cast<std::int32_t>(i);
+          const std::int64_t mine = id[i], length = rowLength_[i];
+          for (std::int64_t k = 0; k < length; ++k) {
+            const std::int32_t j = partner[k];
+            const bool turned = mine > id[j]; // oriented by id
+            now_.pairs[place[k]] = {turned ? j : me, turned ? me : j};
+            if (!code) continue;
+            const int seen = code[k]; // turning a pair round mirrors its image
+            now_.shiftOf[place[k]] = static_cast<std::uint8_t>(turned ? now_.codes.mirrored(seen) : seen);
+          }
+          if (carries) carrier.carry(i, partner, length, place);
+          partner += length;
+          place += length;
+          if (code) code += length;
         }
-        if (carries) carrier.carry(i, partner, count, p);
-        partner += count;
-        if (code) code += count;
-      };
-      for (std::int64_t i = block.firstGrain; i < block.lastGrain; ++i) {
-        const std::int64_t length = rowLength_[i];
-        std::int64_t own = length;
-        while (own > 0 && partner[own - 1] >= chunkEnd)
-          --own;
-        if (own > 0) write(i, own, inside);
-        if (own < length) write(i, length - own, crossing);
-        inside += own;
-        crossing += length - own;
-        if ((i + 1) % group == 0 || i + 1 == block.lastGrain) groupEnd_[i / group] = inside;
+        groupEnd_[first / group] = inside;
       }
     }
   });
 }
 
-/// Slots in the order of rows: what a chunk's grains share with earlier chunks, rows of the chunk, and their
-/// pairs with later chunks, for within a row partners stand in storage order.
+/// Slots in the order of pairs: what a chunk's grains share with earlier chunks, rows of the chunk, and their
+/// pairs with later chunks.
 void PairList::link(Parallel& parallel) {
   const std::int64_t n = now_.grains;
   const auto empty = static_cast<std::int32_t>(now_.entries << 1);
@@ -288,18 +304,55 @@ void PairList::link(Parallel& parallel) {
         const bool second = pairs[p].b < pairs[p].a;
         enter(second ? pairs[p].b : pairs[p].a, p << 1 | (second ? 1 : 0));
       }
-      std::stable_sort(extras[c].begin(), extras[c].end(),
-                       [](const Extra& s, const Extra& t) { return s.grain < t.grain; });
+      std::stable_sort(extras[c].begin(), extras[c].end(), byGrain);
     }
   });
-  now_.extras.clear();
-  for (const auto& part : extras)
-    now_.extras.insert(now_.extras.end(), part.begin(), part.end());
-  now_.groupExtras.assign(static_cast<std::size_t>(now_.groups()) + 1, 0);
-  for (const Extra& e : now_.extras)
-    ++now_.groupExtras[e.grain / group + 1];
-  for (std::size_t g = 1; g < now_.groupExtras.size(); ++g)
-    now_.groupExtras[g] += now_.groupExtras[g - 1];
+  gather(extras, now_.groups(), now_.extras, now_.groupExtras);
+}
+
+/// Length of the ring, and where in it the outputs of each grain stand.
+void PairList::findPlaces(Parallel& parallel) {
+  const int chunkCount = chunks();
+  const Pair* pairs = now_.pairs.data();
+  const std::int64_t n = now_.grains;
+  std::vector<std::int64_t> windows(chunkCount, 0);
+  parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t c = first; c < last; ++c)
+      for (std::int64_t p = chunkPairs_[c].begin; p < chunkPairs_[c].end && pairs[p].a < n; ++p)
+        windows[c] = std::max(windows[c], groupEnd_[std::max(pairs[p].a, pairs[p].b) / group] - p);
+  });
+  constexpr std::int64_t block = 64; // may be written as a whole before its first pair is needed
+  window_ = static_cast<std::int64_t>(
+      std::bit_ceil(static_cast<std::uint64_t>(*std::max_element(windows.begin(), windows.end()) + block)));
+  const auto empty = static_cast<std::int32_t>(window_ << 1);
+  makeRoom(places_, n * slotCount);
+  std::vector<std::vector<Extra>> further(chunkCount);
+  parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t c = first; c < last; ++c) {
+      const auto [begin, end] = chunkGrains_[c];
+      const std::int64_t ringBegin = chunkPairs_[c].begin, mask = window_ - 1;
+      for (std::int64_t i = begin; i < end; ++i) {
+        const std::int32_t* slots = now_.slots.data() + i * slotCount;
+        std::int32_t* places = places_.data() + i * slotCount;
+        int filled = 0;
+        for (int k = 0; k < slotCount; ++k) {
+          const std::int64_t pair = slots[k] >> 1;
+          if (pair == now_.entries) break;
+          if (pair >= ringBegin)
+            places[filled++] = static_cast<std::int32_t>(((pair - ringBegin) & mask) << 1 | (slots[k] & 1));
+          else
+            further[c].push_back({static_cast<std::int32_t>(i), slots[k]});
+        }
+        std::fill(places + filled, places + slotCount, empty);
+      }
+      const std::size_t shared = further[c].size();
+      for (std::int64_t g = begin / group; g * group < end; ++g)
+        further[c].insert(further[c].end(), now_.extras.begin() + now_.groupExtras[g],
+                          now_.extras.begin() + now_.groupExtras[g + 1]);
+      if (further[c].size() > shared) std::stable_sort(further[c].begin(), further[c].end(), byGrain);
+    }
+  });
+  gather(further, now_.groups(), further_, groupFurther_);
 }
 
 std::array<int, 3> PairList::image(std::int64_t p) const {
@@ -317,9 +370,10 @@ std::int64_t PairList::imageKey(std::int64_t p, const GrainStore& grains) const 
 }
 
 std::size_t PairList::bytes() const {
-  std::size_t total = now_.bytes() + past_.bytes() + output_.capacity() * sizeof(Quad) +
+  std::size_t total = now_.bytes() + past_.bytes() + memory_.capacity() * sizeof(Quad) +
                       groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() +
-                      rowLength_.capacity() * sizeof(std::int32_t) + filled_.capacity();
+                      rowLength_.capacity() * sizeof(std::int32_t) + filled_.capacity() +
+                      places_.capacity() * sizeof(std::int32_t) + further_.capacity() * sizeof(Extra);
   for (const Block& block : blocks_)
     total += block.rows.bytes();
   return total;

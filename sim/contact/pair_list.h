@@ -80,8 +80,25 @@ public:
   /// of a chunk begins at chunkPairs(c).begin. g = index / group.
   std::int64_t groupEnd(std::int64_t g) const { return groupEnd_[g]; }
 
-  // Per grain: entries are (pair << 1 | 1 when the grain is b), in an order that does not depend on the
-  // cutting into chunks; empty slots point at the zero output behind the last pair: entries() << 1.
+  // Per grain: what its contacts give. Outputs of a chunk's own pairs stand in a ring while the chunk is
+  // swept from its first pair on, blocks of 64 pairs at a time: pair p at (p - chunkPairs(c).begin) modulo
+  // window(). It is no longer than outputs are needed, so that it stays in the cache.
+  /// A power of two, not below 64; a zero output belongs at this place of the ring.
+  std::int64_t window() const { return window_; }
+  /// slotCount per grain: (place in the ring << 1 | 1 when the grain is b); empty ones: window() << 1.
+  const std::int32_t* places() const { return places_.data(); }
+  /// Further contacts of the grains of a group, ordered by grain, and all those with other chunks. Entries
+  /// are (pair << 1 | 1 when the grain is b). g = index / group.
+  const std::vector<Extra>& further() const { return further_; }
+  Range groupFurther(std::int64_t g) const { return {groupFurther_[g], groupFurther_[g + 1]}; }
+  /// Where a pair's output stands during the sweep of chunk c.
+  const double* outputOf(std::int64_t pair, int c, const double* ring) const {
+    const std::int64_t mine = pair - chunkPairs_[c].begin;
+    return mine >= 0 ? ring + (mine & (window_ - 1)) * 4 * outputQuads_ : &memory_[pair * outputQuads_].x;
+  }
+
+  // All contacts of a grain, by which the next listing finds histories: entries are (pair << 1 | 1 when the
+  // grain is b); empty slots are entries() << 1, and what has no slot stands among the extras.
   const std::int32_t* slots(std::int64_t grain) const { return now_.slots.data() + grain * slotCount; }
   const std::vector<Extra>& extras() const { return now_.extras; } ///< ordered by grain
   Range groupExtras(std::int64_t g) const {                        ///< into extras()
@@ -92,9 +109,8 @@ public:
   double* history() { return now_.history.data(); }
   double historyOf(std::int64_t p, int k) const { return now_.history[placeOf(p, k)]; }
   void setHistory(std::int64_t p, int k, double value) { now_.history[placeOf(p, k)] = value; }
-  /// Outputs: quad k of pair p is output()[p * outputQuads + k]; one more, all zero, at p = entries(). What
-  /// stands in the others after a build means nothing.
-  Quad* output() { return output_.data(); }
+  /// Outputs of pairs between chunks: quad k of pair p is crossingOutput()[p * outputQuads + k].
+  Quad* crossingOutput() { return memory_.data(); }
   std::uint8_t* live() {
     return keepsLive_ ? now_.live.data() : nullptr;
   } ///< 1: in range of a law with events; null unless keepsLive
@@ -126,6 +142,7 @@ private:
   void fillPadding(std::int64_t from, std::int64_t to);
   void writeRows(const GrainStore& grains, Parallel& parallel);
   void link(Parallel& parallel);
+  void findPlaces(Parallel& parallel);
 
   Domain domain_;
   bool periodic_ = false;
@@ -133,7 +150,11 @@ private:
   bool keepsLive_;
   PairListing now_, past_; ///< past_: the listing before, while histories are carried, but for the histories
   std::int64_t size_ = 0;
-  AlignedVector<Quad> output_;
+  AlignedVector<Quad> memory_; ///< outputs of crossing pairs; during a build for anybody
+  std::int64_t window_ = 64;
+  std::vector<std::int32_t> places_;
+  std::vector<Extra> further_;
+  std::vector<std::int32_t> groupFurther_;
   Range crossing_;
   std::vector<Range> chunkGrains_, chunkPairs_,
       chunkCrossing_; ///< the last: crossing rows of a chunk's grains
@@ -141,7 +162,7 @@ private:
 
   // Of use during a build alone; kept because asking for memory anew costs more than the search.
   CellGrid grid_;
-  GrainColumns columns_;          ///< in output_, which nobody reads during a build
+  GrainColumns columns_;          ///< in memory_
   double* pastHistory_ = nullptr; ///< likewise
   std::vector<Block> blocks_;
   std::vector<std::int32_t> rowLength_;

@@ -19,22 +19,34 @@ inline Columns transpose(__m256d q0, __m256d q1, __m256d q2, __m256d q3) {
           _mm256_permute2f128_pd(lowA, lowB, 0x31), _mm256_permute2f128_pd(highA, highB, 0x31)};
 }
 
-/// Four pairs: differences of places with the sum of radii in w, differences of velocities with the sum of
-/// inverse masses, sums of surface speeds, differences of spins.
-struct FourPairs {
-  Columns place, motion, roll, spin;
-};
-
-template <bool turning, bool spin> inline FourPairs loadFour(const ParticleView& v, std::int64_t first) {
+/// Four pairs: differences of places, with the sum of radii in w.
+template <bool turning> inline Columns placesOfFour(const ParticleView& v, std::int64_t first) {
   constexpr std::int64_t stride = turning ? 12 : 8;
   const __m256d oneButLast = _mm256_set_pd(-1, 1, 1, 1); // sums in w, differences else
   const std::int32_t* pair = v.pairs + 2 * first;
-  __m256d dx[4], dv[4], u[4], w[4];
+  __m256d apart[4];
   for (int k = 0; k < 4; ++k) {
     const double *a = v.records + pair[2 * k] * stride, *z = v.records + pair[2 * k + 1] * stride;
     __m256d place = _mm256_load_pd(z);
     if (v.shifts) place = _mm256_add_pd(place, _mm256_load_pd(v.shifts + 4 * v.shiftOf[first + k]));
-    dx[k] = _mm256_fnmadd_pd(place, oneButLast, _mm256_load_pd(a));
+    apart[k] = _mm256_fnmadd_pd(place, oneButLast, _mm256_load_pd(a));
+  }
+  return transpose(apart[0], apart[1], apart[2], apart[3]);
+}
+
+/// Differences of velocities with the sum of inverse masses, sums of surface speeds, differences of spins.
+struct FourMotions {
+  Columns motion, roll, spin;
+};
+
+template <bool turning, bool spin>
+inline FourMotions motionsOfFour(const ParticleView& v, std::int64_t first) {
+  constexpr std::int64_t stride = turning ? 12 : 8;
+  const __m256d oneButLast = _mm256_set_pd(-1, 1, 1, 1);
+  const std::int32_t* pair = v.pairs + 2 * first;
+  __m256d dv[4], u[4], w[4];
+  for (int k = 0; k < 4; ++k) {
+    const double *a = v.records + pair[2 * k] * stride, *z = v.records + pair[2 * k + 1] * stride;
     dv[k] = _mm256_fnmadd_pd(_mm256_load_pd(z + 4), oneButLast, _mm256_load_pd(a + 4));
     if constexpr (turning) {
       const __m256d ra = _mm256_load_pd(a + 8), rz = _mm256_load_pd(z + 8);
@@ -44,8 +56,7 @@ template <bool turning, bool spin> inline FourPairs loadFour(const ParticleView&
                              _mm256_mul_pd(rz, _mm256_permute4x64_pd(rz, 0xff)));
     }
   }
-  FourPairs out;
-  out.place = transpose(dx[0], dx[1], dx[2], dx[3]);
+  FourMotions out;
   out.motion = transpose(dv[0], dv[1], dv[2], dv[3]);
   if constexpr (turning) out.roll = transpose(u[0], u[1], u[2], u[3]);
   if constexpr (spin) out.spin = transpose(w[0], w[1], w[2], w[3]);

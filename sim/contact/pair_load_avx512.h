@@ -29,13 +29,8 @@ inline Columns transpose(__m512d q02, __m512d q13, __m512d q46, __m512d q57) {
 /// The pairs of register k: lower half low[k], upper half high[k].
 constexpr int low[4] = {0, 1, 4, 5}, high[4] = {2, 3, 6, 7};
 
-/// Eight pairs: differences of places with the sum of radii in w, differences of velocities with the sum of
-/// inverse masses, sums of surface speeds, differences of spins.
-struct EightPairs {
-  Columns place, motion, roll, spin;
-};
-
-template <bool turning, bool spin> inline EightPairs loadEight(const ParticleView& v, std::int64_t first) {
+/// Eight pairs: differences of places, with the sum of radii in w.
+template <bool turning> inline Columns placesOfEight(const ParticleView& v, std::int64_t first) {
   constexpr std::int64_t stride = turning ? 12 : 8;
   const double* records = v.records;
   const __m512d oneButLast = _mm512_set_pd(-1, 1, 1, 1, -1, 1, 1, 1); // sums in w, differences else
@@ -46,14 +41,33 @@ template <bool turning, bool spin> inline EightPairs loadEight(const ParticleVie
     __builtin_memcpy(&codes, v.shiftOf + first, 8);
     shifted = codes != v.noShift * 0x0101010101010101ull;
   }
-  __m512d dx[4], dv[4], u[4], w[4];
+  __m512d apart[4];
   for (int k = 0; k < 4; ++k) {
     const double *a0 = records + pair[2 * low[k]] * stride, *z0 = records + pair[2 * low[k] + 1] * stride;
     const double *a1 = records + pair[2 * high[k]] * stride, *z1 = records + pair[2 * high[k] + 1] * stride;
     __m512d place = both(z0, z1);
     if (shifted)
       place += both(v.shifts + 4 * v.shiftOf[first + low[k]], v.shifts + 4 * v.shiftOf[first + high[k]]);
-    dx[k] = _mm512_fnmadd_pd(place, oneButLast, both(a0, a1));
+    apart[k] = _mm512_fnmadd_pd(place, oneButLast, both(a0, a1));
+  }
+  return transpose(apart[0], apart[1], apart[2], apart[3]);
+}
+
+/// Differences of velocities with the sum of inverse masses, sums of surface speeds, differences of spins.
+struct EightMotions {
+  Columns motion, roll, spin;
+};
+
+template <bool turning, bool spin>
+inline EightMotions motionsOfEight(const ParticleView& v, std::int64_t first) {
+  constexpr std::int64_t stride = turning ? 12 : 8;
+  const double* records = v.records;
+  const __m512d oneButLast = _mm512_set_pd(-1, 1, 1, 1, -1, 1, 1, 1);
+  const std::int32_t* pair = v.pairs + 2 * first;
+  __m512d dv[4], u[4], w[4];
+  for (int k = 0; k < 4; ++k) {
+    const double *a0 = records + pair[2 * low[k]] * stride, *z0 = records + pair[2 * low[k] + 1] * stride;
+    const double *a1 = records + pair[2 * high[k]] * stride, *z1 = records + pair[2 * high[k] + 1] * stride;
     dv[k] = _mm512_fnmadd_pd(both(z0 + 4, z1 + 4), oneButLast, both(a0 + 4, a1 + 4));
     if constexpr (turning) {
       const __m512d ra = both(a0 + 8, a1 + 8), rz = both(z0 + 8, z1 + 8);
@@ -61,8 +75,7 @@ template <bool turning, bool spin> inline EightPairs loadEight(const ParticleVie
       if constexpr (spin) w[k] = ra * _mm512_permutex_pd(ra, 0xff) - rz * _mm512_permutex_pd(rz, 0xff);
     }
   }
-  EightPairs out;
-  out.place = transpose(dx[0], dx[1], dx[2], dx[3]);
+  EightMotions out;
   out.motion = transpose(dv[0], dv[1], dv[2], dv[3]);
   if constexpr (turning) out.roll = transpose(u[0], u[1], u[2], u[3]);
   if constexpr (spin) out.spin = transpose(w[0], w[1], w[2], w[3]);

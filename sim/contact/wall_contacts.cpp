@@ -99,6 +99,10 @@ int WallContacts::matchHistories(std::size_t candidate, const WallShape::Touches
   const int size = laws_.historySize();
   const std::int32_t* before = feature_.data() + candidate * slots;
   const double* kept = history_.data() + candidate * slots * size;
+  if (now.count == 1 && before[0] == now.at[0].feature) { // nearly always
+    std::copy_n(kept, size, histories);
+    return 0;
+  }
   bool taken[slots] = {};
   int source[slots];
   for (int c = 0; c < now.count; ++c) {
@@ -228,17 +232,18 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
 
 void WallContacts::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first,
                          std::int64_t last) const {
-  if (candidates_.empty() || offsets_[first] == offsets_[last]) return;
-  for (std::int64_t i = first; i < last; ++i)
-    for (std::int32_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
-      const double* out = result_.data() + static_cast<std::size_t>(k) * 6;
-      double* to = sums.at[i - first];
-      for (int q = 0; q < 3; ++q)
-        to[q] += out[q];
-      if (!grains.turning) continue;
-      for (int q = 0; q < 3; ++q)
-        to[4 + q] += grains.roll[i].w * out[3 + q];
-    }
+  if (candidates_.empty()) return;
+  for (std::int32_t k = offsets_[first]; k < offsets_[last]; ++k) {
+    if (feature_[k * slots] < 0) continue; // it does not touch
+    const std::int32_t i = candidates_[k].grain;
+    const double* out = result_.data() + static_cast<std::size_t>(k) * 6;
+    double* to = sums.at[i - first];
+    for (int q = 0; q < 3; ++q)
+      to[q] += out[q];
+    if (!grains.turning) continue;
+    for (int q = 0; q < 3; ++q)
+      to[4 + q] += grains.roll[i].w * out[3 + q];
+  }
 }
 
 void WallContacts::total(const GrainStore& grains, int wall, Vec3& force, Vec3& torque) const {

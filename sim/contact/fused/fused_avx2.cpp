@@ -11,19 +11,24 @@ struct Width256 {
   using Arithmetic = ExactAvx2;
   static constexpr int lanes = 4;
   template <bool turning>
-  SANDGLASS_LOOP static PairState<V> load(const ParticleView& v, std::int64_t p, V& inverseMass) {
-    const FourPairs f = loadFour<turning, false>(v, p);
-    PairState<V> out{{f.place.x, f.place.y, f.place.z}, f.place.w, {f.motion.x, f.motion.y, f.motion.z}, {}};
-    inverseMass = f.motion.w;
-    if constexpr (turning) out.roll = {f.roll.x, f.roll.y, f.roll.z};
-    return out;
+  SANDGLASS_LOOP static Vector3<V> places(const ParticleView& v, std::int64_t p, V& radii) {
+    const Columns at = placesOfFour<turning>(v, p);
+    radii = at.w;
+    return {at.x, at.y, at.z};
   }
+  template <bool turning>
+  SANDGLASS_LOOP static Vector3<V> motions(const ParticleView& v, std::int64_t p, V& inverseMass,
+                                           Vector3<V>& roll) {
+    const auto m = motionsOfFour<turning, false>(v, p);
+    inverseMass = m.motion.w;
+    if constexpr (turning) roll = {m.roll.x, m.roll.y, m.roll.z};
+    return {m.motion.x, m.motion.y, m.motion.z};
+  }
+  SANDGLASS_LOOP static bool any(V mask) { return _mm256_movemask_pd(mask) != 0; }
   SANDGLASS_LOOP static V read(const double* from) { return _mm256_loadu_pd(from); }
   SANDGLASS_LOOP static void write(double* to, V value) { _mm256_storeu_pd(to, value); }
   template <int quads>
-  SANDGLASS_LOOP static void store(const ParticleView& v, std::int64_t p, const Vector3<V>& f,
-                                   const Vector3<V>& t) {
-    double* out = v.output + 4 * quads * p;
+  SANDGLASS_LOOP static void store(double* out, const Vector3<V>& f, const Vector3<V>& t) {
     scatter(f.x, f.y, f.z, out, 4 * quads);
     if constexpr (quads > 1) scatter(t.x, t.y, t.z, out + 4, 4 * quads);
   }

@@ -11,22 +11,28 @@ struct Width512 {
   using Arithmetic = ExactAvx512;
   static constexpr int lanes = 8;
   template <bool turning>
-  SANDGLASS_LOOP static PairState<V> load(const ParticleView& v, std::int64_t p, V& inverseMass) {
-    const EightPairs e = loadEight<turning, false>(v, p);
-    PairState<V> out{{e.place.x, e.place.y, e.place.z}, e.place.w, {e.motion.x, e.motion.y, e.motion.z}, {}};
-    inverseMass = e.motion.w;
-    if constexpr (turning) out.roll = {e.roll.x, e.roll.y, e.roll.z};
-    return out;
+  SANDGLASS_LOOP static Vector3<V> places(const ParticleView& v, std::int64_t p, V& radii) {
+    const Columns at = placesOfEight<turning>(v, p);
+    radii = at.w;
+    return {at.x, at.y, at.z};
   }
+  template <bool turning>
+  SANDGLASS_LOOP static Vector3<V> motions(const ParticleView& v, std::int64_t p, V& inverseMass,
+                                           Vector3<V>& roll) {
+    const auto m = motionsOfEight<turning, false>(v, p);
+    inverseMass = m.motion.w;
+    if constexpr (turning) roll = {m.roll.x, m.roll.y, m.roll.z};
+    return {m.motion.x, m.motion.y, m.motion.z};
+  }
+  SANDGLASS_LOOP static bool any(__mmask8 mask) { return mask != 0; }
   SANDGLASS_LOOP static V read(const double* from) { return _mm512_loadu_pd(from); }
   SANDGLASS_LOOP static void write(double* to, V value) { _mm512_storeu_pd(to, value); }
   template <int quads>
-  SANDGLASS_LOOP static void store(const ParticleView& v, std::int64_t p, const Vector3<V>& f,
-                                   const Vector3<V>& t) {
+  SANDGLASS_LOOP static void store(double* out, const Vector3<V>& f, const Vector3<V>& t) {
     if constexpr (quads == 1)
-      scatter(f.x, f.y, f.z, v.output + 4 * p, 4);
+      scatter(f.x, f.y, f.z, out, 4);
     else
-      scatterTwo(f.x, f.y, f.z, t.x, t.y, t.z, v.output + 8 * p);
+      scatterTwo(f.x, f.y, f.z, t.x, t.y, t.z, out);
   }
 };
 

@@ -26,10 +26,11 @@ struct FusedLaws {
   SpringConstants<double> spring;
 };
 
-/// Evaluates pairs first .. last - 1, multiples of 8: outputs and, unless `keepHistory`, histories. Returns
+/// Evaluates pairs first .. last - 1, multiples of 8 and no more than a block: outputs, which begin at `out`,
+/// and, unless `keepHistory`, histories. Returns
 /// the deepest overlap [m].
 using FusedLoop = double (*)(const ParticleView&, const FusedLaws&, std::int64_t first, std::int64_t last,
-                             double dt, bool keepHistory);
+                             double dt, bool keepHistory, double* out);
 
 /// Null where the combination has no loop of this width.
 FusedLoop fusedLoopAvx2(const FusedLaws& laws);

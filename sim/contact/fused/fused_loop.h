@@ -9,17 +9,28 @@ namespace sandglass {
 
 namespace {
 
-/// What the second pass over a block takes from the first. Two passes with short chains of dependent
-/// operations are a third faster than one with a long chain: a processor sees two turns of it at a time.
+/// What the passes over a block hand on. Three passes with short chains of dependent operations are a quarter
+/// faster than one with a long chain, of which a processor sees no more than two turns at a time.
 struct Staged {
   static constexpr int capacity = ContactBlock::capacity;
   alignas(64) double nx[capacity], ny[capacity], nz[capacity], overlap[capacity], vn[capacity];
   alignas(64) double slipX[capacity], slipY[capacity], slipZ[capacity], arm[capacity], mass[capacity];
 };
 
+/// Pairs none of which touches: no force, no history.
+template <class W, bool turning>
+void rest(const ParticleView& v, std::int64_t p, bool keepHistory, double* out) {
+  const auto zero = W::Arithmetic::template all<typename W::V>(0.0);
+  if (turning && !keepHistory)
+    for (int k = 0; k < 3; ++k)
+      W::write(v.history + p / 8 * 24 + p % 8 + 8 * k, zero);
+  for (int k = 0; k < W::lanes * (turning ? 8 : 4); k += W::lanes)
+    W::write(out + k, zero);
+}
+
 template <class W, FusedLaws::Normal kind, bool turning, bool project, Dashpot dashpot>
 double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t first, std::int64_t last,
-                 double dt, bool keepHistory) {
+                 double dt, bool keepHistory, double* out) {
   using V = typename W::V;
   using A = typename W::Arithmetic;
   using Normal = FusedLaws::Normal;
@@ -36,35 +47,52 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
   V deepest = zero;
   // Roots and quotients take long: those of the next pairs are begun before these are used.
   struct Ahead {
-    PairState<V> pair;
-    V inverseMass, distance, inverse;
+    bool near;
+    Vector3<V> apart, motion, roll;
+    V radii, inverseMass, distance, inverse;
   };
-  const auto begin = [&](int c) SANDGLASS_LAMBDA {
-    Ahead a;
-    a.pair = W::template load<turning>(v, first + c, a.inverseMass);
-    a.inverse = inverseDistance<A>(a.pair.apart, a.distance);
-    return a;
+  const auto begin = [&](int c, Ahead& a) SANDGLASS_LAMBDA {
+    a.apart = W::template places<turning>(v, first + c, a.radii);
+    a.motion = W::template motions<turning>(v, first + c, a.inverseMass, a.roll);
+    const V squared = dot<A>(a.apart, a.apart);
+    // Whoever is nearer than this may touch once the root is rounded.
+    a.near = W::any(A::above(a.radii * a.radii * A::template all<V>(1.0 + 1e-12), squared));
+    a.inverse = A::overRoot(one, squared, a.distance);
   };
-  Ahead next = begin(0);
+  int active[ContactBlock::capacity / W::lanes], actives = 0;
+  Ahead next;
+  begin(0, next);
   for (int c = 0; c < count; c += W::lanes) {
     const Ahead now = next;
-    if (c + W::lanes < count) next = begin(c + W::lanes);
-    const ContactState<V> contact = contactState<A, turning>(now.pair, now.distance, now.inverse, radiusArm);
-    deepest = A::larger(deepest, contact.overlap);
-    W::write(b.nx + c, contact.n.x);
-    W::write(b.ny + c, contact.n.y);
-    W::write(b.nz + c, contact.n.z);
-    W::write(b.overlap + c, contact.overlap);
+    if (c + W::lanes < count) begin(c + W::lanes, next);
+    if (!now.near) {
+      rest<W, turning>(v, first + c, keepHistory, out + c * (turning ? 8 : 4));
+      continue;
+    }
+    active[actives++] = c;
+    const Vector3<V> n = times(now.inverse, now.apart);
+    const V overlap = now.radii - now.distance;
+    deepest = A::larger(deepest, overlap);
+    W::write(b.nx + c, n.x);
+    W::write(b.ny + c, n.y);
+    W::write(b.nz + c, n.z);
+    W::write(b.overlap + c, overlap);
+    V arm = one;
+    if (turning && !radiusArm) {
+      arm = A::over(now.distance, now.radii);
+      W::write(b.arm + c, arm);
+    }
+    const ContactMotion<V> contact = contactMotion<A, turning>(n, now.motion, now.roll, arm);
     W::write(b.vn + c, contact.vn);
     if constexpr (massive) W::write(b.mass + c, A::over(one, now.inverseMass));
     if constexpr (turning) {
-      if (!radiusArm) W::write(b.arm + c, contact.arm);
       W::write(b.slipX + c, contact.slip.x);
       W::write(b.slipY + c, contact.slip.y);
       W::write(b.slipZ + c, contact.slip.z);
     }
   }
-  for (int c = 0; c < count; c += W::lanes) {
+  for (int k = 0; k < actives; ++k) {
+    const int c = active[k];
     const std::int64_t p = first + c;
     const Vector3<V> n{W::read(b.nx + c), W::read(b.ny + c), W::read(b.nz + c)};
     const V overlap = W::read(b.overlap + c), vn = W::read(b.vn + c);
@@ -80,7 +108,7 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
                                                                                      radius, mass);
     if constexpr (!turning) {
       const Vector3<V> force = times(normal.force, n);
-      W::template store<1>(v, p, force, force);
+      W::template store<1>(out + 4 * c, force, force);
     } else {
       double* history = v.history + p / 8 * 24 + p % 8;
       Vector3<V> s{W::read(history), W::read(history + 8), W::read(history + 16)};
@@ -93,7 +121,7 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       }
       V arm = one;
       if (!radiusArm) arm = W::read(b.arm + c);
-      W::template store<2>(v, p, plus<A>(ft, normal.force, n), contactTorque<A>(n, arm, ft));
+      W::template store<2>(out + 8 * c, plus<A>(ft, normal.force, n), contactTorque<A>(n, arm, ft));
     }
   }
   alignas(64) double each[W::lanes];

@@ -29,19 +29,22 @@ void ParticleLoop::bind() {
     allowed_[g] = grains_.listed[g * group].w;
 }
 
-void ParticleLoop::sumGroup(std::int64_t g, std::int64_t last, GroupSums& sums) const {
+void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, const double* ring,
+                            GroupSums& sums) const {
   const std::int64_t first = g * group;
   const ParticleView& view = pairs_.view();
-  kernelOf(pairs_.width()).sum(view, first, static_cast<int>(last - first), sums);
-  const PairList::Range extras = list_.groupExtras(g);
-  for (std::int64_t e = extras.begin; e < extras.end; ++e) {
-    const PairList::Extra& extra = list_.extras()[e];
+  kernelOf(pairs_.width()).sum(view, first, static_cast<int>(last - first), ring, sums);
+  const PairList::Range further = list_.groupFurther(g);
+  for (std::int64_t e = further.begin; e < further.end; ++e) {
+    const PairList::Extra& extra = list_.further()[e];
     double* to = sums.at[extra.grain - first];
-    const double* out = view.output + static_cast<std::int64_t>(extra.entry >> 1) * 4 * view.outputQuads;
+    const double* out = list_.outputOf(extra.entry >> 1, chunk, ring);
     const double sign = extra.entry & 1 ? -1.0 : 1.0;
-    for (int q = 0; q < view.outputQuads; ++q)
-      for (int k = 0; k < 3; ++k)
-        to[4 * q + k] += q == 1 ? out[4 * q + k] : sign * out[4 * q + k];
+    for (int q = 0; q < view.outputQuads; ++q) {
+      const double factor = q == 1 ? 1.0 : sign;
+      for (int k = 0; k < 4; ++k) // one register; the last is zero
+        to[4 * q + k] += factor * out[4 * q + k];
+    }
   }
   walls_.addTo(sums, grains_, first, last);
   across_.addTo(sums, grains_, first, last);
@@ -50,15 +53,20 @@ void ParticleLoop::sumGroup(std::int64_t g, std::int64_t last, GroupSums& sums) 
 template <class Done>
 void ParticleLoop::sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done) {
   const PairList::Range grains = list_.chunkGrains(chunk), pairs = list_.chunkPairs(chunk);
+  const std::int64_t stride = 4 * list_.outputQuads(), mask = list_.window() - 1;
+  const auto zero = static_cast<std::size_t>(list_.window() * stride);
+  if (scratch.ring.size() < zero + stride) scratch.ring.resize(zero + stride);
+  std::fill_n(scratch.ring.begin() + zero, stride, 0.0);
   std::int64_t next = pairs.begin;
   for (std::int64_t first = grains.begin; first < grains.end; first += group) {
     const std::int64_t g = first / group;
     while (next < list_.groupEnd(g)) {
       const std::int64_t end = std::min(next + ContactBlock::capacity, pairs.end);
-      pairs_.evaluate({next, end}, dt, keepHistory, scratch);
+      pairs_.evaluate({next, end}, dt, keepHistory, scratch,
+                      scratch.ring.data() + ((next - pairs.begin) & mask) * stride);
       next = end;
     }
-    done(g, std::min(first + group, grains.end));
+    done(g, std::min(first + group, grains.end), scratch.ring.data());
   }
 }
 
@@ -69,8 +77,9 @@ void ParticleLoop::crossing(double dt, bool keepHistory) {
   parallel_.forRange(
       (pairs.end - pairs.begin + piece - 1) / piece, 4, [&](std::int64_t first, std::int64_t last) {
         PairForces::Scratch& scratch = scratchOfThread();
-        pairs_.evaluate({pairs.begin + first * piece, std::min(pairs.begin + last * piece, pairs.end)}, dt,
-                        keepHistory, scratch);
+        const std::int64_t begin = pairs.begin + first * piece;
+        pairs_.evaluate({begin, std::min(pairs.begin + last * piece, pairs.end)}, dt, keepHistory, scratch,
+                        &list_.crossingOutput()[begin * list_.outputQuads()].x);
         const std::lock_guard lock(merge);
         events_.insert(events_.end(), scratch.events.begin(), scratch.events.end());
         deepest_.take(scratch.deepest.share, scratch.deepest.idA, scratch.deepest.idB, scratch.deepest.wall);
@@ -90,15 +99,16 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
     GroupSums sums;
     bool tired = false, wrong = false;
     for (std::int64_t c = firstChunk; c < lastChunk; ++c)
-      sweep(static_cast<int>(c), dt, false, scratch, [&](std::int64_t g, std::int64_t last) {
-        sumGroup(g, last, sums);
-        Speeds speeds;
-        kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt, gravity.data(),
-                    speedLimit, speeds);
-        moved_[g] += dt * std::sqrt(speeds.x * speeds.x + speeds.y * speeds.y + speeds.z * speeds.z);
-        tired = tired || moved_[g] > allowed_[g];
-        wrong = wrong || speeds.bad;
-      });
+      sweep(static_cast<int>(c), dt, false, scratch,
+            [&](std::int64_t g, std::int64_t last, const double* ring) {
+              sumGroup(static_cast<int>(c), g, last, ring, sums);
+              Speeds speeds;
+              kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt,
+                          gravity.data(), speedLimit, speeds);
+              moved_[g] += dt * std::sqrt(speeds.x * speeds.x + speeds.y * speeds.y + speeds.z * speeds.z);
+              tired = tired || moved_[g] > allowed_[g];
+              wrong = wrong || speeds.bad;
+            });
     if (tired) late = true;
     if (wrong) bad = true;
     const std::lock_guard lock(merge);
@@ -134,17 +144,19 @@ void ParticleLoop::forces(double dt, std::vector<Quad>& force, std::vector<Quad>
     PairForces::Scratch& scratch = scratchOfThread();
     GroupSums sums;
     for (std::int64_t c = firstChunk; c < lastChunk; ++c)
-      sweep(static_cast<int>(c), dt, true, scratch, [&](std::int64_t g, std::int64_t last) {
-        sumGroup(g, last, sums);
-        for (std::int64_t i = g * group; i < last; ++i) {
-          const double* s = sums.at[i - g * group];
-          force[i] = {s[0], s[1], s[2], 0.0};
-          if (!grains_.turning) continue;
-          const double r = grains_.place[i].w;
-          torque[i] = {r * s[4], r * s[5], r * s[6], 0.0};
-          if (list_.outputQuads() > 2) torque[i] = {r * s[4] + s[8], r * s[5] + s[9], r * s[6] + s[10], 0.0};
-        }
-      });
+      sweep(static_cast<int>(c), dt, true, scratch,
+            [&](std::int64_t g, std::int64_t last, const double* ring) {
+              sumGroup(static_cast<int>(c), g, last, ring, sums);
+              for (std::int64_t i = g * group; i < last; ++i) {
+                const double* s = sums.at[i - g * group];
+                force[i] = {s[0], s[1], s[2], 0.0};
+                if (!grains_.turning) continue;
+                const double r = grains_.place[i].w;
+                torque[i] = {r * s[4], r * s[5], r * s[6], 0.0};
+                if (list_.outputQuads() > 2)
+                  torque[i] = {r * s[4] + s[8], r * s[5] + s[9], r * s[6] + s[10], 0.0};
+              }
+            });
   });
   if (list_.live()) list_.liveArray() = live;
 }

@@ -46,7 +46,7 @@ public:
   std::vector<double>& moved() { return moved_; }
 
 private:
-  void sumGroup(std::int64_t group, std::int64_t last, GroupSums& sums) const;
+  void sumGroup(int chunk, std::int64_t group, std::int64_t last, const double* ring, GroupSums& sums) const;
   template <class Done>
   void sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done);
   void crossing(double dt, bool keepHistory);
