@@ -173,6 +173,7 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
   loop_.bind();
   frozen_.capture(grains_);
+  loop_.watch(frozen_.moving());
   atFullStep_.valid = false;
   ++rebuilds_;
 }

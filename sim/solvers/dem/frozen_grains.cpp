@@ -20,6 +20,13 @@ void FrozenGrains::capture(const GrainStore& grains) {
                        grains.turning ? grains.roll[i] : Quad{}});
 }
 
+std::vector<std::int32_t> FrozenGrains::moving() const {
+  std::vector<std::int32_t> grains;
+  for (const Held& h : held_)
+    if (h.moves()) grains.push_back(h.grain);
+  return grains;
+}
+
 void FrozenGrains::hold(GrainStore& grains) const {
   for (const Held& h : held_) {
     grains.place[h.grain] = h.place;
@@ -30,12 +37,11 @@ void FrozenGrains::hold(GrainStore& grains) const {
 
 void FrozenGrains::advance(GrainStore& grains, const ParticleLoop& loop, double dt, double worked) {
   double power = 0.0;
-  std::int64_t group = -1;
-  GroupSums sums;
+  std::size_t k = 0;
   Vec3 force, torque;
   for (const Held& h : held_) {
     if (!h.moves()) continue;
-    loop.contactForce(h.grain, group, sums, force, torque);
+    loop.watchedForce(k++, force, torque);
     power -= force.dot(h.motion.vec()) + torque.dot(h.roll.w * h.roll.vec());
   }
   work_ += 0.5 * worked * (power_ + power);

@@ -30,6 +30,8 @@ public:
 
   /// After grains came, left or changed places: takes the motion that they have now as the one to keep.
   void capture(const GrainStore& grains);
+  /// Storage indices of those that move or turn, whose forces advance() asks the loop for.
+  std::vector<std::int32_t> moving() const;
   /// Gives them back what capture() found, at the place where advance() has brought them.
   void hold(GrainStore& grains) const;
   /// After a step of the particle loop: they go on as they are. `worked`: the time since the step before [s],

@@ -1,5 +1,6 @@
 #include "sim/solvers/dem/particle_loop.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -102,6 +103,7 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
       sweep(static_cast<int>(c), dt, false, scratch,
             [&](std::int64_t g, std::int64_t last, const double* ring) {
               sumGroup(static_cast<int>(c), g, last, ring, sums);
+              if (!watched_.empty()) keepWatched(g * group, last, sums);
               Speeds speeds;
               kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt,
                           gravity.data(), speedLimit, speeds);
@@ -120,17 +122,23 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
   return {late, bad};
 }
 
-void ParticleLoop::contactForce(std::int64_t grain, std::int64_t& g, GroupSums& sums, Vec3& force,
-                                Vec3& torque) const {
-  if (grain / group != g) {
-    g = grain / group;
-    sumGroup(g, std::min<std::int64_t>((g + 1) * group, static_cast<std::int64_t>(grains_.size())), sums);
-  }
-  const double* s = sums.at[grain - g * group];
+void ParticleLoop::watch(std::vector<std::int32_t> grains) {
+  watched_ = std::move(grains);
+  watchedSums_.assign(watched_.size(), {});
+}
+
+void ParticleLoop::keepWatched(std::int64_t first, std::int64_t last, const GroupSums& sums) {
+  for (auto at = std::lower_bound(watched_.begin(), watched_.end(), first);
+       at != watched_.end() && *at < last; ++at)
+    std::copy_n(sums.at[*at - first], 12, watchedSums_[at - watched_.begin()].begin());
+}
+
+void ParticleLoop::watchedForce(std::size_t k, Vec3& force, Vec3& torque) const {
+  const std::array<double, 12>& s = watchedSums_[k];
   force = {s[0], s[1], s[2]};
   torque = Vec3::Zero();
   if (!grains_.turning) return;
-  torque = grains_.place[grain].w * Vec3(s[4], s[5], s[6]);
+  torque = grains_.place[watched_[k]].w * Vec3(s[4], s[5], s[6]);
   if (list_.outputQuads() > 2) torque += Vec3(s[8], s[9], s[10]);
 }
 

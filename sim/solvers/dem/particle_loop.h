@@ -12,6 +12,7 @@
 #include "sim/contact/sector_contacts.h"
 #include "sim/contact/wall_contacts.h"
 
+#include <array>
 #include <vector>
 
 namespace sandglass {
@@ -37,15 +38,17 @@ public:
   /// storage order; gravity left out. Pair outputs are overwritten, nothing else.
   void forces(double dt, std::vector<Quad>& force, std::vector<Quad>& torque);
 
-  /// Force and torque of contacts in the step just done on a grain [N, N m], until the list is made anew.
-  /// `sums` keeps those of its group from call to call; `group` is -1 at first.
-  void contactForce(std::int64_t grain, std::int64_t& group, GroupSums& sums, Vec3& force,
-                    Vec3& torque) const;
+  /// Storage indices, ascending, of grains whose contact forces are to be kept from each step, until the list
+  /// is made anew.
+  void watch(std::vector<std::int32_t> grains);
+  /// Force and torque of contacts in the step just done on the k-th of them [N, N m].
+  void watchedForce(std::size_t k, Vec3& force, Vec3& torque) const;
 
   /// For checkpoints: how far each group may have moved since it was listed [m].
   std::vector<double>& moved() { return moved_; }
 
 private:
+  void keepWatched(std::int64_t first, std::int64_t last, const GroupSums& sums);
   void sumGroup(int chunk, std::int64_t group, std::int64_t last, const double* ring, GroupSums& sums) const;
   template <class Done>
   void sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done);
@@ -58,6 +61,8 @@ private:
   const SectorContacts& across_;
   Parallel& parallel_;
   std::vector<double> moved_, allowed_;
+  std::vector<std::int32_t> watched_;
+  std::vector<std::array<double, 12>> watchedSums_; ///< as GroupSums has them
   std::vector<PairEvent> events_;
   DeepestOverlap deepest_;
 };
