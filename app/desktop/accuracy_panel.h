@@ -22,7 +22,7 @@ public:
 
 private:
   QTreeWidgetItem* row(QTreeWidgetItem* group, const QString& name, const QString& tip);
-  QTreeWidgetItem *level_, *contact_, *step_, *stiffness_, *skin_, *limit_;
+  QTreeWidgetItem *level_, *contact_, *step_, *stiffness_, *arithmetic_, *skin_, *limit_;
   QTreeWidgetItem *speed_, *ratio_, *left_, *overlap_, *pictures_;
   double lastTime_ = -1, lastWall_ = 0;
 };

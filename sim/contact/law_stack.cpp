@@ -131,7 +131,8 @@ const char* roleName(LawRole role) {
 } // namespace
 
 LawStack::LawStack(const Scene& scene, bool anySize)
-    : materials_(static_cast<int>(scene.materials.size())), stiffnessScale_(scene.accuracy.stiffnessScale) {
+    : materials_(static_cast<int>(scene.materials.size())), stiffnessScale_(scene.accuracy.stiffnessScale),
+      fastArithmetic_(scene.accuracy.fastArithmetic) {
   for (const Material& m : scene.materials) {
     const double mass = anySize ? 0.0 : oneMass(scene, m);
     promisedInverseMass_.push_back(mass > 0.0 ? 1.0 / mass : 0.0);

@@ -51,6 +51,7 @@ public:
   double range() const { return range_; }
   unsigned reads() const { return reads_; } ///< columns of the block, Law::Columns
   KernelWidth width() const { return width_; }
+  bool fastArithmetic() const { return fastArithmetic_; } ///< AccuracySpec::fastArithmetic
   void useWidth(KernelWidth width) { width_ = width; }
   bool turning() const { return turning_; }
   bool readsSpin() const { return readsSpin_; }
@@ -70,6 +71,7 @@ private:
   std::vector<double> promisedInverseMass_; ///< [1/kg] by material; 0: none
   int materials_ = 0, history_ = 0;
   double stiffnessScale_ = 1.0;
+  bool fastArithmetic_ = false;
   double range_ = 0.0;
   unsigned reads_ = 0;
   KernelWidth width_ = bestKernelWidth();

@@ -46,7 +46,7 @@ void PairForces::pickLoop() {
   if (!view_.oneMaterial || view_.outputQuads != (turning ? 2 : 1) || view_.quads != (turning ? 3 : 2))
     return;
   if (!linear && view_.oneRadius == 0.0) return;
-  if (laws_.width() == KernelWidth::avx512) fusedLoop_ = fusedLoopAvx512(fused_);
+  if (laws_.width() == KernelWidth::avx512) fusedLoop_ = fusedLoopAvx512(fused_, laws_.fastArithmetic());
   if (laws_.width() == KernelWidth::avx2) fusedLoop_ = fusedLoopAvx2(fused_);
 }
 

@@ -314,6 +314,13 @@ const Keys& accuracyKeys() {
                           .fallback = 1.0,
                           .minimum = 1e-6,
                           .maximum = 1e6},
+                         {.name = "arithmetic",
+                          .type = text,
+                          .unit = "1",
+                          .description = "portable: the same bits on every processor; fast: roots and quotients of "
+                                         "common laws to two units in the last place, where AVX-512 is there",
+                          .fallback = std::string("portable"),
+                          .choices = {"portable", "fast"}},
                          {.name = "skin",
                           .type = number,
                           .unit = "1",

@@ -281,6 +281,9 @@ void load(const Parameters& values, AccuracySpec& accuracy) {
   get(values, "steps_per_contact", accuracy.stepsPerContact);
   get(values, "time_step", accuracy.timeStep);
   get(values, "stiffness_scale", accuracy.stiffnessScale);
+  std::string arithmetic;
+  get(values, "arithmetic", arithmetic);
+  accuracy.fastArithmetic = arithmetic == "fast";
   get(values, "skin", accuracy.skin);
   get(values, "maximum_overlap", accuracy.maximumOverlap);
 }
@@ -291,6 +294,7 @@ Parameters store(const AccuracySpec& accuracy) {
   values.set("steps_per_contact", accuracy.stepsPerContact);
   put(values, "time_step", accuracy.timeStep);
   values.set("stiffness_scale", accuracy.stiffnessScale);
+  values.set("arithmetic", std::string(accuracy.fastArithmetic ? "fast" : "portable"));
   values.set("skin", accuracy.skin);
   values.set("maximum_overlap", accuracy.maximumOverlap);
   return values;

@@ -6,9 +6,9 @@ namespace sandglass {
 
 namespace {
 
-struct Width512 {
+template <class A> struct Width512 {
   using V = __m512d;
-  using Arithmetic = ExactAvx512;
+  using Arithmetic = A;
   static constexpr int lanes = 8;
   template <bool turning>
   SANDGLASS_LOOP static Vector3<V> places(const ParticleView& v, std::int64_t p, V& radii) {
@@ -38,8 +38,8 @@ struct Width512 {
 
 } // namespace
 
-FusedLoop fusedLoopAvx512(const FusedLaws& laws) {
-  return pickFusedLoop<Width512>(laws);
+FusedLoop fusedLoopAvx512(const FusedLaws& laws, bool fast) {
+  return fast ? pickFusedLoop<Width512<FastAvx512>>(laws) : pickFusedLoop<Width512<ExactAvx512>>(laws);
 }
 
 } // namespace sandglass

@@ -34,6 +34,7 @@ using FusedLoop = double (*)(const ParticleView&, const FusedLaws&, std::int64_t
 
 /// Null where the combination has no loop of this width.
 FusedLoop fusedLoopAvx2(const FusedLaws& laws);
-FusedLoop fusedLoopAvx512(const FusedLaws& laws);
+/// `fast`: roots and quotients to two units in the last place, from estimates of the processor.
+FusedLoop fusedLoopAvx512(const FusedLaws& laws, bool fast);
 
 } // namespace sandglass

@@ -313,6 +313,7 @@ void DemSolver::load(const State& s) {
   restore("walls.history", wallContacts_.historyArray());
   restore("walls.feature", wallContacts_.featureArray());
   frozen_.capture(grains_);
+  loop_.watch(frozen_.moving());
   if (frozen_.any()) {
     std::vector<double> frozen;
     get(s, "frozen", frozen);
