@@ -190,9 +190,10 @@ TEST_CASE("loops of their own give the plain kernel's bits over whole runs") {
 TEST_CASE("fast arithmetic errs by some units in the last place") {
   // Two units in a distance of 2 mm are 1e-18 m; 400 N/m turn them into 4e-16 N, which a grain of 5 mg gets
   // as 1e-10 m/s^2: beside accelerations of several m/s^2 that is 1e-10 of them, with some contacts a grain.
-  const std::string spring = R"({ law = "spring", friction = 0.4 })";
-  for (const std::string& normal : {linearLaw, hertzLaw}) {
-    const Scene exact = single(normal, spring, 2), fast = single(normal, spring, 2, "fast");
+  const std::string spring = R"({ law = "spring", friction = 0.4 })",
+                    mindlin = R"({ law = "mindlin", friction = 0.4 })";
+  for (const auto& [normal, tangential] : {std::pair{linearLaw, spring}, std::pair{hertzLaw, mindlin}}) {
+    const Scene exact = single(normal, tangential, 2), fast = single(normal, tangential, 2, "fast");
     const double dt = DemSolver(exact, {1}).stepSize();
     const auto start = afterRun(exact, "avx512", static_cast<int>(0.15 / dt)); // they lie on the floor
     const auto after = [&](const Scene& scene) {
