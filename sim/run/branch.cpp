@@ -2,8 +2,10 @@
 
 #include "sim/base/error.h"
 #include "sim/io/atomic_file.h"
+#include "sim/io/run_folder.h"
 #include "sim/io/segment_names.h"
 #include "sim/run/checkpoint_store.h"
+#include "sim/run/run_recorder.h"
 
 #include <fmt/format.h>
 
@@ -50,8 +52,11 @@ Branch branchRun(const fs::path& source, std::int64_t step, const fs::path& targ
   fs::create_directories(target / "frames");
   for (const auto& file : checkpoints)
     share(file, target / "checkpoints" / file.filename());
+  // Frames after the checkpoint are computed again; whoever looks at the branch meanwhile must not see them go.
+  const auto segments = RunRecorder::segmentsAt(readCheckpoint(checkpoints.back()));
   for (const auto& file : segmentFiles(source / "frames"))
-    share(file, target / "frames" / file.filename()); // resuming drops those after the checkpoint
+    if (!segments || segmentNumber(file) < static_cast<int>(*segments))
+      share(file, target / "frames" / file.filename());
   for (const char* table : {"series.csv", "discharged.csv"})
     if (fs::exists(source / table)) fs::copy_file(source / table, target / table); // and cuts these
   writeAtomically(target / "scene.toml", writeScene(branch.scene));

@@ -197,6 +197,15 @@ void RunRecorder::checkpoint(Solver& solver, Solver::State runState) {
   lastCheckpoint_ = store_->write(solver.step(), runState);
 }
 
+std::optional<std::uint64_t> RunRecorder::segmentsAt(const Solver::State& state) {
+  const auto it = state.find(stateKey);
+  if (it == state.end()) return std::nullopt;
+  std::int64_t frame, sample;
+  std::uint64_t frames, segments;
+  ByteReader(it->second) >> frame >> sample >> frames >> segments;
+  return segments;
+}
+
 void RunRecorder::load(const Solver::State& state) {
   const auto entry = [&](const std::string& key) -> const std::vector<std::byte>& {
     const auto it = state.find(key);

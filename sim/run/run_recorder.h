@@ -19,6 +19,8 @@ namespace sandglass {
 
 class RunRecorder {
 public:
+  /// Frame segments that there were when a checkpoint was written; nothing when it does not say.
+  static std::optional<std::uint64_t> segmentsAt(const Solver::State& state);
   /// Refuses a folder that holds a run (InputError) unless `options` say resume or overwrite.
   RunRecorder(const Scene& scene, const RunOptions& options, double stepSize, Log log);
 
