@@ -11,13 +11,6 @@ namespace sandglass::vis {
 
 namespace {
 
-Rgb rgb(const std::array<double, 3>& colour) {
-  Rgb result;
-  for (int k = 0; k < 3; ++k)
-    result[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(colour[k], 0.0, 1.0)));
-  return result;
-}
-
 double meanRadius(const Frame& frame) {
   const std::vector<double> radii = drawnRadii(frame);
   return std::accumulate(radii.begin(), radii.end(), 0.0) /

@@ -59,6 +59,13 @@ Rgb unpack(std::uint32_t c) {
 
 } // namespace
 
+Rgb rgb(const std::array<double, 3>& colour) {
+  Rgb result;
+  for (int k = 0; k < 3; ++k)
+    result[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(colour[k], 0.0, 1.0)));
+  return result;
+}
+
 ColourMap::ColourMap(const std::string& name, bool reversed, int bands) {
   const auto& all = definitions();
   const auto found =

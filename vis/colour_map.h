@@ -17,6 +17,9 @@ namespace sandglass::vis {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
+/// Shares of red, green and blue, 0 to 1 and cut to that, as bytes.
+Rgb rgb(const std::array<double, 3>& colour);
+
 class ColourMap {
 public:
   /// `reversed`: from the end to the start; `bands` more than 0: so many steps. Throws InputError naming the

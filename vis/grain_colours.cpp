@@ -10,13 +10,6 @@ namespace sandglass::vis {
 
 namespace {
 
-Rgb rgb(const std::array<double, 3>& colour) {
-  Rgb result;
-  for (int k = 0; k < 3; ++k)
-    result[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(colour[k], 0.0, 1.0)));
-  return result;
-}
-
 /// Three quarters of the way to the ground, without hue.
 Rgb paled(const Rgb& colour, const std::array<double, 3>& ground) {
   const double luma = 0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2];

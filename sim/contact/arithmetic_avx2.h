@@ -14,11 +14,10 @@ struct ExactAvx2 {
   template <class> SANDGLASS_LOOP static V all(double a) { return _mm256_set1_pd(a); }
   SANDGLASS_LOOP static V root(V a) { return _mm256_sqrt_pd(a); }
   SANDGLASS_LOOP static V over(V a, V b) { return a / b; }
-  SANDGLASS_LOOP static V overRoot(V a, V b, V& rootOfB) {
+  SANDGLASS_LOOP static V overRoot(V a, V b, V& rootOfB, V = _mm256_setzero_pd()) {
     rootOfB = root(b);
     return a / rootOfB;
   }
-  SANDGLASS_LOOP static V overRoot(V a, V b, V& rootOfB, V) { return overRoot(a, b, rootOfB); }
   SANDGLASS_LOOP static V fma(V a, V b, V c) { return _mm256_fmadd_pd(a, b, c); }
   SANDGLASS_LOOP static V fnma(V a, V b, V c) { return _mm256_fnmadd_pd(a, b, c); }
   SANDGLASS_LOOP static V above(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_GT_OQ); }

@@ -40,12 +40,9 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
 void PairForces::pickLoop() {
   fused_ = laws_.fused();
   fusedLoop_ = nullptr;
-  const bool turning = fused_.tangential != FusedLaws::Tangential::none;
   const bool linear =
       fused_.normal == FusedLaws::Normal::linear || fused_.normal == FusedLaws::Normal::linearOfMass;
-  if (!view_.oneMaterial || view_.outputQuads != (turning ? 2 : 1) || view_.quads != (turning ? 3 : 2))
-    return;
-  if (!linear && view_.oneRadius == 0.0) return;
+  if (!view_.oneMaterial || (!linear && view_.oneRadius == 0.0)) return;
   if (laws_.width() == KernelWidth::avx512) fusedLoop_ = fusedLoopAvx512(fused_, laws_.fastArithmetic());
   if (laws_.width() == KernelWidth::avx2) fusedLoop_ = fusedLoopAvx2(fused_);
 }

@@ -373,7 +373,8 @@ std::size_t PairList::bytes() const {
   std::size_t total = now_.bytes() + past_.bytes() + memory_.capacity() * sizeof(Quad) +
                       groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() +
                       rowLength_.capacity() * sizeof(std::int32_t) + filled_.capacity() +
-                      places_.capacity() * sizeof(std::int32_t) + further_.capacity() * sizeof(Extra);
+                      places_.capacity() * sizeof(std::int32_t) + further_.capacity() * sizeof(Extra) +
+                      groupFurther_.capacity() * sizeof(std::int32_t);
   for (const Block& block : blocks_)
     total += block.rows.bytes();
   return total;

@@ -15,10 +15,10 @@ namespace sandglass {
 
 /// What a law says to be fused; a law that says nothing is not.
 struct FusedLaws {
-  enum class Normal { other, linear, linearOfMass, hertz, hertzTsuji };
+  enum class Normal { other, linear, linearOfMass, hertz };
   enum class Tangential { other, none, spring };
-  Normal normal = Normal::other;
-  Tangential tangential = Tangential::none;
+  Normal normal = Normal::other; ///< hertz: with the dashpot of a given restitution
+  Tangential tangential = Tangential::other;
   Dashpot dashpot = Dashpot::none;
   bool project = false, radiusArm = false;
   LinearConstants<double> linear;
@@ -27,8 +27,7 @@ struct FusedLaws {
 };
 
 /// Evaluates pairs first .. last - 1, multiples of 8 and no more than a block: outputs, which begin at `out`,
-/// and, unless `keepHistory`, histories. Returns
-/// the deepest overlap [m].
+/// and, unless `keepHistory`, histories. Returns the deepest overlap [m].
 using FusedLoop = double (*)(const ParticleView&, const FusedLaws&, std::int64_t first, std::int64_t last,
                              double dt, bool keepHistory, double* out);
 

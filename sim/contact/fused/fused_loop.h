@@ -34,8 +34,7 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
   using V = typename W::V;
   using A = typename W::Arithmetic;
   using Normal = FusedLaws::Normal;
-  constexpr bool massive =
-      kind == Normal::linearOfMass || kind == Normal::hertzTsuji || dashpot == Dashpot::rate;
+  constexpr bool massive = kind == Normal::linearOfMass || kind == Normal::hertz || dashpot == Dashpot::rate;
   const LinearConstants<double> linear = laws.linear;
   const HertzConstants<double> hertz = laws.hertz;
   const SpringConstants<double> spring = laws.spring;
@@ -104,8 +103,7 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
     else if constexpr (kind == Normal::linearOfMass)
       normal = linearForce<A>(linear, linearDamping<A>(linear, mass), overlap, vn);
     else
-      normal = hertzForce<A, kind == Normal::hertzTsuji, kind == Normal::hertzTsuji>(hertz, overlap, vn,
-                                                                                     radius, mass);
+      normal = hertzForce<A, true, true>(hertz, overlap, vn, radius, mass);
     if constexpr (!turning) {
       const Vector3<V> force = times(normal.force, n);
       W::template store<1>(out + 4 * c, force, force);
@@ -154,7 +152,7 @@ template <class W> FusedLoop pickFusedLoop(const FusedLaws& laws) {
     if (laws.normal == Normal::linear) return fusedLoop<W, Normal::linear, true, false, coefficient>;
     if (laws.normal == Normal::linearOfMass)
       return fusedLoop<W, Normal::linearOfMass, true, false, coefficient>;
-    if (laws.normal == Normal::hertzTsuji) return fusedLoop<W, Normal::hertzTsuji, true, false, coefficient>;
+    if (laws.normal == Normal::hertz) return fusedLoop<W, Normal::hertz, true, false, coefficient>;
   }
   return nullptr;
 }

@@ -71,9 +71,7 @@ public:
   }
 
   void fuse(FusedLaws& laws) const override {
-    laws.normal = tsuji_    ? FusedLaws::Normal::hertzTsuji
-                  : masses_ ? FusedLaws::Normal::other
-                            : FusedLaws::Normal::hertz;
+    laws.normal = tsuji_ ? FusedLaws::Normal::hertz : FusedLaws::Normal::other;
     laws.hertz = table_[0];
   }
 

@@ -5,6 +5,7 @@
 #include "sim/solvers/dem/dem_solver.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <cstdlib>
 
@@ -12,69 +13,64 @@ using namespace sandglass;
 
 namespace {
 
-/// Unequal grains of two materials fall on a floor in a periodic box: every path through the kernels.
-Scene mixture(const std::string& tangential, const std::string& rolling) {
-  return parseScene(
-      R"(
-title = "mixture"
+/// Grains of species a (2 mm) and b fall on a floor of b's material in a periodic box.
+Scene falling(const std::string& materials, const std::string& a, const std::string& b, double diameterOfB,
+              const std::string& accuracy = "") {
+  return parseScene(fmt::format(R"(
+title = "falling"
 gravity = ["1 m/s^2", "0", "-9.81 m/s^2"]
 [domain]
 lower = ["0", "0", "-1 mm"]
 upper = ["12 mm", "12 mm", "60 mm"]
 periodic = ["x", "y"]
+{}
+{}
+[[species]]
+name = "a"
+material = "{}"
+size = {{ distribution = "single", diameter = "2 mm" }}
+[[species]]
+name = "b"
+material = "{}"
+size = {{ distribution = "single", diameter = "{} mm" }}
+[[wall]]
+name = "floor"
+kind = "plane"
+material = "{}"
+point = ["0", "0", "0"]
+normal = [0, 0, 1]
+[[fill]]
+kind = "list"
+grains = [{{ position = ["2 mm", "2 mm", "50 mm"], species = "a" }}]
+[[stage]]
+name = "run"
+until = {{ duration = "1 s" }}
+)",
+                                accuracy, materials, a, b, diameterOfB, b),
+                    "test");
+}
+
+/// Unequal grains of two materials: every path through the kernels.
+Scene mixture(const std::string& tangential, const std::string& rolling) {
+  std::string materials = R"(
 [[material]]
 name = "light"
 density = "1000 kg/m^3"
 [[material]]
 name = "heavy"
 density = "3000 kg/m^3"
-)" +
-          [&] {
-            std::string contacts;
-            for (const char* pair : {R"("light", "light")", R"("light", "heavy")", R"("heavy", "heavy")"})
-              contacts += std::string("[[contact]]\nbetween = [") + pair + "]\n" +
-                          R"(normal = { law = "linear", stiffness = "400 N/m", restitution = 0.7 })" +
-                          "\ntangential = " + tangential + "\nrolling = " + rolling + "\n";
-            return contacts;
-          }() +
-          R"(
-[[species]]
-name = "a"
-material = "light"
-size = { distribution = "single", diameter = "2 mm" }
-[[species]]
-name = "b"
-material = "heavy"
-size = { distribution = "single", diameter = "1.4 mm" }
-[[wall]]
-name = "floor"
-kind = "plane"
-material = "heavy"
-point = ["0", "0", "0"]
-normal = [0, 0, 1]
-[[fill]]
-kind = "list"
-grains = [{ position = ["2 mm", "2 mm", "50 mm"], species = "a" }]
-[[stage]]
-name = "run"
-until = { duration = "1 s" }
-)",
-      "test");
+)";
+  for (const char* pair : {R"("light", "light")", R"("light", "heavy")", R"("heavy", "heavy")"})
+    materials += std::string("[[contact]]\nbetween = [") + pair + "]\n" +
+                 R"(normal = { law = "linear", stiffness = "400 N/m", restitution = 0.7 })" +
+                 "\ntangential = " + tangential + "\nrolling = " + rolling + "\n";
+  return falling(materials, "light", "heavy", 1.4);
 }
 
-/// Grains of one material: what the loops of their own (fused_laws.h) are for. Grain b has `second` mm.
-Scene single(const std::string& normal, const std::string& tangential, double second,
+/// Grains of one material: what the loops of their own (fused_laws.h) are for.
+Scene single(const std::string& normal, const std::string& tangential, double diameterOfB,
              const std::string& arithmetic = "portable") {
-  return parseScene(R"(
-title = "single"
-gravity = ["1 m/s^2", "0", "-9.81 m/s^2"]
-[domain]
-lower = ["0", "0", "-1 mm"]
-upper = ["12 mm", "12 mm", "60 mm"]
-periodic = ["x", "y"]
-[accuracy]
-arithmetic = ")" + arithmetic +
-                        R"("
+  return falling(R"(
 [[material]]
 name = "glass"
 density = "2000 kg/m^3"
@@ -83,30 +79,8 @@ poisson_ratio = 0.3
 [[contact]]
 between = ["glass", "glass"]
 normal = )" + normal +
-                        "\ntangential = " + tangential + R"(
-[[species]]
-name = "a"
-material = "glass"
-size = { distribution = "single", diameter = "2 mm" }
-[[species]]
-name = "b"
-material = "glass"
-size = { distribution = "single", diameter = ")" +
-                        std::to_string(second) + R"( mm" }
-[[wall]]
-name = "floor"
-kind = "plane"
-material = "glass"
-point = ["0", "0", "0"]
-normal = [0, 0, 1]
-[[fill]]
-kind = "list"
-grains = [{ position = ["2 mm", "2 mm", "50 mm"], species = "a" }]
-[[stage]]
-name = "run"
-until = { duration = "1 s" }
-)",
-                    "test");
+                     "\ntangential = " + tangential,
+                 "glass", "glass", diameterOfB, "[accuracy]\narithmetic = \"" + arithmetic + "\"");
 }
 
 const std::string linearLaw = R"({ law = "linear", stiffness = "400 N/m", restitution = 0.7 })",
@@ -133,6 +107,20 @@ std::vector<GrainSeed> afterRun(const Scene& scene, const char* kernel, int step
   return solver.present();
 }
 
+void compareKernels(const Scene& scene) {
+  const auto expected = afterRun(scene, "plain");
+  for (const char* kernel : {"avx2", "avx512"}) { // a narrower processor takes its widest for the last
+    CAPTURE(kernel);
+    const auto found = afterRun(scene, kernel);
+    REQUIRE(found.size() == expected.size());
+    int same = 0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      same += found[i].position == expected[i].position && found[i].velocity == expected[i].velocity &&
+              found[i].spin == expected[i].spin;
+    CHECK(same == static_cast<int>(expected.size()));
+  }
+}
+
 } // namespace
 
 TEST_CASE("vector kernels give the plain kernel's bits over whole runs") {
@@ -143,16 +131,7 @@ TEST_CASE("vector kernels give the plain kernel's bits over whole runs") {
        {R"({ law = "spring", friction = 0.4 })", R"({ law = "elastic_plastic", coefficient = 0.1 })"}}));
   CAPTURE(tangential, rolling);
   const Scene scene = mixture(tangential, rolling);
-  const auto expected = afterRun(scene, "plain");
-  for (const char* kernel : {"avx2", "avx512"}) { // a narrower processor takes its widest for the last
-    const auto found = afterRun(scene, kernel);
-    REQUIRE(found.size() == expected.size());
-    int same = 0;
-    for (std::size_t i = 0; i < found.size(); ++i)
-      same += found[i].position == expected[i].position && found[i].velocity == expected[i].velocity &&
-              found[i].spin == expected[i].spin;
-    CHECK(same == static_cast<int>(expected.size()));
-  }
+  compareKernels(scene);
 }
 
 TEST_CASE("loops of their own give the plain kernel's bits over whole runs") {
@@ -172,18 +151,7 @@ TEST_CASE("loops of their own give the plain kernel's bits over whole runs") {
                                 {hertzLaw, R"({ law = "mindlin", friction = 0.4 })", 1.4}};
   for (const Case& c : cases) {
     CAPTURE(c.normal, c.tangential, c.second);
-    const Scene scene = single(c.normal, c.tangential, c.second);
-    const auto expected = afterRun(scene, "plain");
-    for (const char* kernel : {"avx2", "avx512"}) {
-      CAPTURE(kernel);
-      const auto found = afterRun(scene, kernel);
-      REQUIRE(found.size() == expected.size());
-      int same = 0;
-      for (std::size_t i = 0; i < found.size(); ++i)
-        same += found[i].position == expected[i].position && found[i].velocity == expected[i].velocity &&
-                found[i].spin == expected[i].spin;
-      CHECK(same == static_cast<int>(expected.size()));
-    }
+    compareKernels(single(c.normal, c.tangential, c.second));
   }
 }
 
