@@ -66,6 +66,26 @@ std::map<std::string, std::string> textOfFilm(const fs::path& file) {
   return parseRecordText(comment);
 }
 
+fs::path located(const fs::path& source, const PictureRecord& record, const fs::path& picture) {
+  std::vector<fs::path> places{source};
+  const fs::path folder = fs::absolute(picture).parent_path();
+  for (const fs::path& base : {folder, folder.parent_path()}) {
+    if (source.is_relative()) places.push_back(base / source);
+    fs::path last = source; // "run/" has its name before the slash
+    if (!last.has_filename()) last = last.parent_path();
+    places.push_back(base / last.filename());
+  }
+  for (const fs::path& place : places)
+    if (fs::exists(place)) return place;
+  const auto scene = record.text.find("scene");
+  throw InputError(fmt::format(
+      "{}: the run that it shows, {}, is missing: neither there nor beside the picture{}; put it back or "
+      "give "
+      "the run itself",
+      picture.string(), source.string(),
+      scene == record.text.end() ? "" : fmt::format(" (its scene has the hash {})", scene->second)));
+}
+
 } // namespace
 
 bool isPicture(const fs::path& file) {
@@ -105,6 +125,8 @@ PictureRecord readRecord(const fs::path& file) {
                                    file.string(), key == std::string("source") ? "run" : "view"));
   record.view = parseView(record.text["view"], file.string() + " (view inside)");
   record.source = record.text["source"];
+  if (const auto right = record.text.find("right_source"); right != record.text.end())
+    record.rightSource = right->second;
   const std::string& frame = record.text["frame"];
   std::from_chars(frame.data(), frame.data() + frame.size(), record.frame);
   const std::string& time = record.text["time"];
@@ -117,23 +139,12 @@ View viewFromPicture(const fs::path& file) {
 }
 
 fs::path locateSource(const PictureRecord& record, const fs::path& picture) {
-  std::vector<fs::path> places{record.source};
-  const fs::path folder = fs::absolute(picture).parent_path();
-  for (const fs::path& base : {folder, folder.parent_path()}) {
-    if (record.source.is_relative()) places.push_back(base / record.source);
-    fs::path last = record.source; // "run/" has its name before the slash
-    if (!last.has_filename()) last = last.parent_path();
-    places.push_back(base / last.filename());
-  }
-  for (const fs::path& place : places)
-    if (fs::exists(place)) return place;
-  const auto scene = record.text.find("scene");
-  throw InputError(fmt::format(
-      "{}: the run that it shows, {}, is missing: neither there nor beside the picture{}; put it back or "
-      "give "
-      "the run itself",
-      picture.string(), record.source.string(),
-      scene == record.text.end() ? "" : fmt::format(" (its scene has the hash {})", scene->second)));
+  return located(record.source, record, picture);
+}
+
+std::optional<fs::path> locateRightSource(const PictureRecord& record, const fs::path& picture) {
+  if (record.rightSource.empty()) return std::nullopt;
+  return located(record.rightSource, record, picture);
 }
 
 } // namespace sandglass::vis

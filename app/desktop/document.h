@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace sandglass::desktop {
 
@@ -22,7 +23,13 @@ struct Document {
   QString sceneText;                 ///< as edited; the session has the last sound one
   std::optional<std::size_t> chosen; ///< frame, while another tab is shown
   std::int64_t grain = -1;           ///< picked
+  bool grainBeside = false;          ///< in the right half of the picture
+  Document* beside = nullptr;        ///< another tab, whose run is the right half of the picture
+  FramePtr shownBeside;              ///< of it
   QUndoStack undo;
 };
+
+/// What tells its run from others: the name of the folder, or of the file.
+std::string runName(const Document& document);
 
 } // namespace sandglass::desktop

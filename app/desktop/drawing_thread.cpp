@@ -4,6 +4,7 @@
 #include "sim/base/error.h"
 #include "vis/chart.h"
 #include "vis/history.h"
+#include "vis/pair_view.h"
 
 #include <fmt/format.h>
 
@@ -135,7 +136,10 @@ DrawingThread::Clock::time_point DrawingThread::nextDue() const {
 std::optional<DrawingThread::Task> DrawingThread::dueTask(Clock::time_point now) {
   if (pick_) {
     const QPoint p = *std::exchange(pick_, std::nullopt);
-    return [this, p](vis::Renderer& r) { Q_EMIT picked(r.pick(p.x(), p.y()).grain); };
+    return [this, p](vis::Renderer& r) {
+      const vis::PickResult hit = r.pick(p.x(), p.y());
+      Q_EMIT picked(hit.grain, hit.half);
+    };
   }
   const bool pictureDue = picture_ && (picture_->interactive || now >= pictureFrom_);
   const bool chartDue = !charts_.empty() && now >= std::max(pictureFrom_, chartFrom_);
@@ -173,31 +177,45 @@ std::optional<DrawingThread::Task> DrawingThread::dueTask(Clock::time_point now)
   return std::nullopt;
 }
 
-void DrawingThread::lookBack(vis::Renderer& renderer, const vis::View& view,
-                             const std::shared_ptr<const FrameSource>& run) {
+std::shared_ptr<const vis::History> DrawingThread::lookBack(std::size_t half, const vis::View& view,
+                                                            const std::shared_ptr<const FrameSource>& run) {
+  Past& past = past_[half];
   if (!vis::needsHistory(view) || !run || run->size() == 0) {
-    if (!history_.empty()) renderer.setHistory(nullptr);
-    history_.clear();
-    return;
+    past = {};
+    return nullptr;
   }
   std::string key = fmt::format("{} {}", fmt::ptr(run.get()), run->size());
   for (const auto grain : view.tracks.grains)
     key += fmt::format(" {}", grain);
-  if (key == history_) return;
-  renderer.setHistory(std::make_shared<const vis::History>(vis::historyOf(*run, view)));
-  history_ = key;
+  if (key != past.key) past = {key, std::make_shared<const vis::History>(vis::historyOf(*run, view))};
+  return past.history;
+}
+
+DrawingThread::Drawn DrawingThread::render(vis::Renderer& renderer, const FrameOrder& left,
+                                           const std::optional<FrameOrder>& right, const vis::View& view) {
+  const auto load = [](const FrameOrder& order) {
+    return order.frame ? order.frame : order.source->load(order.index);
+  };
+  Drawn drawn;
+  drawn.left = load(left);
+  if (!right) {
+    renderer.setHistory(lookBack(0, view, left.run));
+    drawn.image = renderer.draw(*drawn.left, vis::drawableView(view, *drawn.left));
+    return drawn;
+  }
+  drawn.right = load(*right);
+  const vis::PairViews views = vis::pairViews(*drawn.left, *drawn.right, view, {left.name, right->name});
+  drawn.image = renderer.drawPair(*drawn.left, *drawn.right, views.left, views.right,
+                                  lookBack(0, view, left.run), lookBack(1, view, right->run));
+  return drawn;
 }
 
 void DrawingThread::drawPicture(vis::Renderer& renderer, const PictureOrder& order) {
+  Drawn drawn = render(renderer, order.left, order.right, order.view);
   Picture picture;
-  picture.frame = order.frame ? order.frame : order.source->load(order.index);
-  vis::View view = order.view;
-  lookBack(renderer, view, order.run);
-  const auto known = grainScalarNames(*picture.frame);
-  if (!vis::originalAxis(view.colouring.quantity) &&
-      std::find(known.begin(), known.end(), view.colouring.quantity) == known.end())
-    view.colouring.quantity.clear(); // frames of other origin may hold positions alone
-  picture.image = toQImage(renderer.draw(*picture.frame, view));
+  picture.image = toQImage(std::move(drawn.image));
+  picture.frame = drawn.left;
+  picture.right = drawn.right;
   picture.camera = renderer.resolvedCamera();
   picture.number = order.number;
   picture.interactive = order.interactive;
@@ -207,14 +225,13 @@ void DrawingThread::drawPicture(vis::Renderer& renderer, const PictureOrder& ord
 void DrawingThread::writePicture(vis::Renderer& renderer, const PictureFile& file) {
   QString fault;
   try {
-    lookBack(renderer, file.view, file.run);
-    const vis::Image image = renderer.draw(*file.frame, file.view);
-    auto text = file.frame->provenance;
+    const Drawn drawn = render(renderer, file.left, file.right, file.view);
+    auto text = drawn.left->provenance;
     text.insert(file.text.begin(), file.text.end());
     text["Software"] = "Sandglass";
     text["view"] = vis::writeView(file.view);
-    text["time"] = fmt::format("{:.17g}", file.frame->time);
-    vis::writePng(image, file.file, text);
+    text["time"] = fmt::format("{:.17g}", drawn.left->time);
+    vis::writePng(drawn.image, file.file, text);
   } catch (const std::exception& e) {
     fault = QString::fromUtf8(e.what());
   }

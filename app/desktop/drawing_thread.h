@@ -19,6 +19,7 @@
 #include <QSize>
 #include <QString>
 
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -31,31 +32,38 @@
 
 namespace sandglass::desktop {
 
-/// What to draw: a frame at hand, or frame `index` of a source, loaded by the drawing thread.
-struct PictureOrder {
+/// A frame at hand, or frame `index` of a source, loaded by the drawing thread.
+struct FrameOrder {
   FramePtr frame;
   std::shared_ptr<const FrameSource> source;
   std::size_t index = 0;
   std::shared_ptr<const FrameSource> run; ///< the other frames, for views that look back
-  vis::View view;
-  quint64 number = 0;       ///< of the order; its picture carries it
-  bool interactive = false; ///< somebody waits with the mouse button down
+  std::string name;                       ///< of the run, beside another one
+};
+
+/// What to draw.
+struct PictureOrder {
+  FrameOrder left;
+  std::optional<FrameOrder> right; ///< the other half of the picture
+  vis::View view;                  ///< of both halves; as wide as both together
+  quint64 number = 0;              ///< of the order; its picture carries it
+  bool interactive = false;        ///< somebody waits with the mouse button down
 };
 
 struct Picture {
   QImage image;
-  FramePtr frame;
-  vis::Camera camera; ///< presets resolved
+  FramePtr frame, right; ///< `right` of a pair
+  vis::Camera camera;    ///< presets resolved
   quint64 number = 0;
   bool interactive = false;
 };
 
 struct PictureFile {
-  FramePtr frame;
+  FrameOrder left;
+  std::optional<FrameOrder> right;
   vis::View view;
   std::string file;
   std::map<std::string, std::string> text; ///< further chunks; provenance and view are added
-  std::shared_ptr<const FrameSource> run;
 };
 
 class DrawingThread : public QObject {
@@ -76,7 +84,7 @@ public:
 Q_SIGNALS: // from the drawing thread: connect to objects of the window's thread
   void pictureReady();
   void chartReady(const QString& panel, const QImage& image, const sandglass::vis::ChartPlace& place);
-  void picked(qint64 grain);
+  void picked(qint64 grain, int half);                   ///< half: 1 in the right one of a pair, else 0
   void saved(const QString& file, const QString& fault); ///< no fault: it is there
   void failed(const QString& sentence);
   void started(const QString& backend);
@@ -94,8 +102,14 @@ private:
   std::optional<Task> dueTask(Clock::time_point now);
   Clock::time_point nextDue() const;
   void drawPicture(vis::Renderer& renderer, const PictureOrder& order);
-  void lookBack(vis::Renderer& renderer, const vis::View& view,
-                const std::shared_ptr<const FrameSource>& run);
+  struct Drawn {
+    vis::Image image;
+    FramePtr left, right;
+  };
+  Drawn render(vis::Renderer& renderer, const FrameOrder& left, const std::optional<FrameOrder>& right,
+               const vis::View& view);
+  std::shared_ptr<const vis::History> lookBack(std::size_t half, const vis::View& view,
+                                               const std::shared_ptr<const FrameSource>& run);
   void writePicture(vis::Renderer& renderer, const PictureFile& file);
   void rest(double seconds, double processorSeconds);
 
@@ -109,7 +123,11 @@ private:
   bool simulationRuns_ = false, quit_ = false, chartLast_ = false;
   Clock::time_point pictureFrom_{}, chartFrom_{}; ///< not before
 
-  std::string history_; ///< what the renderer's history is of; of the drawing thread alone
+  struct Past {
+    std::string key; ///< what it is the history of
+    std::shared_ptr<const vis::History> history;
+  };
+  std::array<Past, 2> past_; ///< of the halves; of the drawing thread alone
   OneSlot<Picture> out_;
   std::thread thread_; ///< last: starts when all else is there
 };

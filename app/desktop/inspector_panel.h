@@ -22,6 +22,7 @@ public:
   /// Shows the grain in this frame; negative: none. The history is read from `store` in a worker.
   void show(std::int64_t grain, const FramePtr& frame, std::shared_ptr<const FrameStore> store);
   std::int64_t grain() const { return grain_; }
+  FramePtr frame() const { return frame_; }
   ChartPanel* history() const { return history_; }
   bool isSettled() const { return reading_ == 0; }
 

@@ -189,7 +189,7 @@ void MainWindow::connectPanels() {
   connect(run_, &RunPanel::branchWanted, this, &MainWindow::branch);
   connect(run_, &RunPanel::speedLimitChosen, this, [this](double ratio) { session_->limitSpeed(ratio); });
   connect(docks_["inspector"], &QDockWidget::visibilityChanged, this, [this](bool visible) {
-    if (visible && now_) inspector_->show(now_->grain, now_->shown, session_->current().store);
+    if (visible && now_) inspect();
   });
 }
 

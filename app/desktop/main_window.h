@@ -60,6 +60,10 @@ public:
   void newTab();
   void closeTab(int index);
   void showTab(int index);
+  /// The run of another tab in the right half of the picture of this one, through the same camera; false
+  /// ends it. The tab is the one looked at before, or the nearest in which something is open.
+  void showBeside(bool on);
+  FramePtr shownBeside() const { return now_->shownBeside; }
   int tabs() const { return static_cast<int>(documents_.size()); }
   /// Whether nothing is being opened, and picture, charts, analyses and scene are up to date.
   bool isSettled() const;
@@ -113,7 +117,7 @@ private:
   // Pictures and curves (window_pictures.cpp).
   void requestPicture(bool interactive = false);
   void onPicture();
-  void onPicked(qint64 grain);
+  void onPicked(qint64 grain, int half);
   void refreshPanels(bool restart);
   void requestAnalyses(bool restart);
   void takeAnalyses();
@@ -122,6 +126,13 @@ private:
   void applyView(const vis::View& view);
   void exportCurve(const analysis::Curve& curve, const QString& suffix);
   QString curveName() const;
+
+  // Two runs side by side (window_beside.cpp).
+  Document* partner() const;
+  void setBeside(Document* document, Document* other);
+  void forgetBeside(const Document* document);
+  std::optional<FrameOrder> besideOrder() const;
+  void inspect();
 
   // What commands do (window_actions.cpp).
   void say(LogLevel level, const QString& text);
@@ -164,6 +175,7 @@ private:
   std::unique_ptr<QSettings> settings_;
   std::vector<std::unique_ptr<Document>> documents_;
   Document* now_ = nullptr;    ///< the tab that is shown
+  Document* before_ = nullptr; ///< the one shown before; null when it is closed
   Session* session_ = nullptr; ///< its session
   std::unique_ptr<DrawingThread> drawing_;
   std::unique_ptr<AnalysisWorker> analyses_;

@@ -59,6 +59,7 @@ Opened openPicture(const fs::path& file) {
   Opened opened = openAny(vis::locateSource(record, file));
   opened.view = record.view;
   opened.time = record.time;
+  opened.beside = vis::locateRightSource(record, file);
   return opened;
 }
 

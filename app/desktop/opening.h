@@ -26,6 +26,7 @@ struct Opened {
   std::optional<vis::View> view; ///< of the picture that was opened, or of view.toml beside the scene
   std::optional<double> time;    ///< [s], frame to show; absent: the last one
   bool canResume = false;        ///< there is a checkpoint
+  std::optional<std::filesystem::path> beside; ///< the other run of a picture of two
 };
 
 /// A scene, a run folder, a segment of frames, or a picture or film that leads back to its run. Throws

@@ -154,11 +154,26 @@ void MainWindow::chooseSessionFile() {
 
 void MainWindow::savePicture(const QString& file) {
   if (!now_->shown) return;
-  const Opened& current = session_->current();
-  const auto source = std::filesystem::absolute(current.runFolder.empty() ? current.path : current.runFolder);
-  std::map<std::string, std::string> text{{"source", source.string()}};
-  if (current.store->size() > 0) text["frame"] = std::to_string(current.store->nearest(now_->shown->time));
-  drawing_->save({now_->shown, now_->view, file.toStdString(), std::move(text), current.store});
+  std::map<std::string, std::string> text;
+  const auto describe = [&](const Document& document, const Frame& shown, const std::string& prefix) {
+    const Opened& current = document.session->current();
+    const auto& source = current.runFolder.empty() ? current.path : current.runFolder;
+    text[prefix + "source"] = std::filesystem::absolute(source).string();
+    if (current.store->size() > 0)
+      text[prefix + "frame"] = std::to_string(current.store->nearest(shown.time));
+    return FrameOrder{document.shown, nullptr, 0, current.store, runName(document)};
+  };
+  PictureFile order;
+  order.left = describe(*now_, *now_->shown, "");
+  order.left.frame = now_->shown;
+  if (now_->beside && now_->shownBeside) {
+    order.right = describe(*now_->beside, *now_->shownBeside, "right_");
+    order.right->frame = now_->shownBeside;
+  }
+  order.view = now_->view;
+  order.file = file.toStdString();
+  order.text = std::move(text);
+  drawing_->save(std::move(order));
 }
 
 void MainWindow::saveScene(const QString& file) {

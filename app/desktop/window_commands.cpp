@@ -281,6 +281,15 @@ std::vector<Command> MainWindow::viewRows() {
                     keepView("parallel projection");
                     requestPicture();
                   }});
+  rows.push_back({.id = "view.beside",
+                  .menu = menu,
+                  .name = "&Side by side",
+                  .keys = keys({"Ctrl+B"}),
+                  .toolTip = "The run of the tab looked at before beside this one, through one camera",
+                  .icon = {},
+                  .checkable = true,
+                  .beginsGroup = true,
+                  .perform = [this](bool on) { showBeside(on); }});
   return rows;
 }
 

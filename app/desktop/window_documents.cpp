@@ -34,6 +34,12 @@ QString titleOf(const Document& document) {
 
 } // namespace
 
+std::string runName(const Document& document) {
+  const Opened& current = document.session->current();
+  const auto& place = current.runFolder.empty() ? current.path : current.runFolder;
+  return (place.filename() == "scene.toml" ? place.parent_path() : place).filename().string();
+}
+
 Document* MainWindow::addDocument() {
   SessionOptions options = options_.session;
   if (!documents_.empty()) options.folder.clear(); // -o names the folder of the first run
@@ -57,8 +63,9 @@ void MainWindow::connectSession(Document* d) {
       return other->session->runs() && !other->session->isPaused();
     }));
   });
-  connect(s, &Session::frameArrived, this, [this, here] {
+  connect(s, &Session::frameArrived, this, [this, d, here] {
     if (here()) onFrame();
+    if (now_ && now_->beside == d) requestPicture();
   });
   connect(s, &Session::progressArrived, this, [this, here] {
     if (here()) onState();
@@ -102,7 +109,8 @@ void MainWindow::closeTab(int index) {
     const QSignalBlocker blocker(tabBar_);
     tabBar_->removeTab(index);
   }
-  now_ = nullptr;
+  forgetBeside(document);
+  now_ = before_ = nullptr;
   session_ = nullptr;
   documents_.erase(documents_.begin() + index); // waits for the checkpoint
   tabBar_->setVisible(tabs() > 1);
@@ -111,6 +119,7 @@ void MainWindow::closeTab(int index) {
 
 void MainWindow::enter(Document* document) {
   if (now_) now_->chosen = time_->chosen();
+  if (now_ && now_ != document) before_ = now_;
   now_ = document;
   session_ = document->session.get();
   undo_.setActiveStack(&document->undo);
@@ -118,6 +127,8 @@ void MainWindow::enter(Document* document) {
       std::find_if(documents_.begin(), documents_.end(), [&](const auto& d) { return d.get() == now_; });
   const QSignalBlocker blocker(tabBar_);
   tabBar_->setCurrentIndex(static_cast<int>(at - documents_.begin()));
+  const QSignalBlocker alsoThis(commands_->action("view.beside"));
+  commands_->action("view.beside")->setChecked(now_->beside != nullptr);
   showDocument();
   onState();
 }
@@ -126,10 +137,7 @@ void MainWindow::nameTab(const Document& document) {
   const auto at =
       std::find_if(documents_.begin(), documents_.end(), [&](const auto& d) { return d.get() == &document; });
   const int index = static_cast<int>(at - documents_.begin());
-  const Opened& current = document.session->current();
-  const auto& folder = current.runFolder.empty() ? current.path : current.runFolder;
-  QString name = QString::fromStdString(
-      (folder.filename() == "scene.toml" ? folder.parent_path() : folder).filename().string());
+  QString name = QString::fromStdString(runName(document));
   if (document.session->runs()) name = QString(QChar(0x25B6)) + " " + name;
   tabBar_->setTabText(index, name.isEmpty() ? nothingOpen : name);
   tabBar_->setTabToolTip(index, titleOf(document));
@@ -157,6 +165,7 @@ void MainWindow::onOpened(Document* document) {
   document->preview.reset();
   document->chosen.reset();
   document->grain = -1;
+  document->grainBeside = false;
   document->undo.clear();
   document->sceneText = current.sceneText;
   document->view.camera.preset = "fit";
@@ -167,6 +176,12 @@ void MainWindow::onOpened(Document* document) {
   say(LogLevel::info, "Opened " + name + ".");
   remember(name);
   nameTab(*document);
+  if (current.beside) {
+    Document* other = addDocument();
+    other->session->open(QString::fromStdString(current.beside->string()));
+    setBeside(document, other);
+  }
+  if (now_->beside == document) requestPicture();
   if (document != now_) return;
   statusBar()->clearMessage();
   banner_->setSentences({});
@@ -198,7 +213,7 @@ void MainWindow::showDocument() {
   run_->setScene(current.scene);
   run_->setSpeedLimit(session_->speedLimit());
   accuracy_->setScene(current.scene);
-  inspector_->show(now_->grain, now_->shown, current.store);
+  inspect();
   const auto chosen = now_->chosen;
   time_->setFrames(current.store->size(), session_->runs());
   time_->choose(std::nullopt);

@@ -39,11 +39,11 @@ void MainWindow::requestPicture(bool interactive) {
   order.interactive = interactive;
   const auto index = time_->chosen();
   if (index && store->size() > 0) {
-    order.index = std::min(*index, store->size() - 1);
-    order.source = store;
+    order.left.index = std::min(*index, store->size() - 1);
+    order.left.source = store;
   } else if (session_->liveFrame()) {
-    order.frame = session_->liveFrame();
-  } else if (!(order.frame = now_->preview)) {
+    order.left.frame = session_->liveFrame();
+  } else if (!(order.left.frame = now_->preview)) {
     return;
   }
   vis::View& view = now_->view;
@@ -55,7 +55,9 @@ void MainWindow::requestPicture(bool interactive) {
   view.width = pixels.width();
   view.height = pixels.height();
   order.view = view;
-  order.run = store;
+  order.left.run = store;
+  order.left.name = runName(*now_);
+  if (now_->beside) order.right = besideOrder();
   if (interactive) order.view.maximumGrains = grainsWhileMoving;
   order.number = ++ordered_;
   drawing_->draw(std::move(order));
@@ -67,8 +69,11 @@ void MainWindow::onPicture() {
   drawn_ = picture->number;
   if (!session_->isOpen()) return;
   const bool other = picture->frame != now_->shown;
+  const bool otherBeside = picture->right != now_->shownBeside;
   now_->shown = picture->frame;
+  now_->shownBeside = picture->right;
   picture_->show(std::move(*picture));
+  if (otherBeside && now_->grainBeside) inspect();
   if (!other) return;
   const Frame& frame = *now_->shown;
   viewPanel_->setFrame(frame);
@@ -90,7 +95,7 @@ void MainWindow::onPicture() {
 }
 
 void MainWindow::refreshPanels(bool restart) {
-  if (now_->grain >= 0) inspector_->show(now_->grain, now_->shown, session_->current().store);
+  if (now_->grain >= 0 && !now_->grainBeside) inspect();
   requestAnalyses(restart);
 }
 
@@ -123,9 +128,7 @@ void MainWindow::takeAnalyses() {
 }
 
 QString MainWindow::curveName() const {
-  const Opened& current = session_->current();
-  const auto& folder = current.runFolder.empty() ? current.path : current.runFolder;
-  const QString name = QString::fromStdString(folder.filename().string());
+  const QString name = QString::fromStdString(runName(*now_));
   return now_->shown ? QString("%1, %2 s").arg(name).arg(now_->shown->time, 0, 'g', 4) : name;
 }
 
@@ -151,17 +154,18 @@ bool MainWindow::isSettled() const {
          analyses_->isIdle() && scene_->isSettled() && inspector_->isSettled();
 }
 
-void MainWindow::onPicked(qint64 grain) {
+void MainWindow::onPicked(qint64 grain, int half) {
   now_->grain = grain;
+  now_->grainBeside = half == 1 && now_->beside && now_->shownBeside;
   if (!now_->shown || grain < 0) {
     inspector_->show(-1, nullptr, nullptr);
     return statusBar()->showMessage("No grain there.");
   }
-  const Frame& frame = *now_->shown;
+  const Frame& frame = now_->grainBeside ? *now_->shownBeside : *now_->shown;
   const auto at = std::find(frame.id.begin(), frame.id.end(), grain);
   if (at == frame.id.end()) return;
   if (docks_.at("inspector")->toggleViewAction()->isChecked()) docks_.at("inspector")->raise();
-  inspector_->show(grain, now_->shown, session_->current().store);
+  inspect();
   const auto k = static_cast<std::size_t>(at - frame.id.begin());
   const Vec3& x = frame.position[k];
   QString text = QString("Grain %1    at (%2, %3, %4) m").arg(grain).arg(x.x()).arg(x.y()).arg(x.z());

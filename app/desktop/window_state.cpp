@@ -85,6 +85,14 @@ void MainWindow::setTextScale(double factor) {
 void MainWindow::saveSession(const QString& file) {
   now_->chosen = time_->chosen();
   QJsonArray tabs;
+  const auto numberOf = [this](const Document* wanted) { // among those that are kept
+    int number = 0;
+    for (const auto& d : documents_) {
+      if (d.get() == wanted) break;
+      number += d->session->isOpen();
+    }
+    return number;
+  };
   for (const auto& d : documents_) {
     const Opened& current = d->session->current();
     if (current.path.empty()) continue;
@@ -93,6 +101,7 @@ void MainWindow::saveSession(const QString& file) {
                     {"view", QString::fromStdString(vis::writeView(d->view))},
                     {"grain", static_cast<qint64>(d->grain)}};
     if (d->sceneText != current.sceneText || current.runFolder.empty()) tab["scene"] = d->sceneText;
+    if (d->beside) tab["beside"] = numberOf(d->beside);
     if (d->chosen && current.store->size() > 0)
       tab["time"] = current.store->time(std::min(*d->chosen, current.store->size() - 1));
     tabs.append(tab);
@@ -131,10 +140,11 @@ void MainWindow::openSession(const QString& file) {
   restoreGeometry(fromBase64(whole["geometry"]));
   restoreState(fromBase64(whole["layout"]), layoutVersion);
   bool first = !session_->isOpen();
+  std::vector<Document*> opened;
   for (const auto& entry : whole["tabs"].toArray()) {
     const QJsonObject tab = entry.toObject();
     if (!std::exchange(first, false)) newTab();
-    Document* document = now_;
+    Document* document = opened.emplace_back(now_);
     const auto once = std::make_shared<QMetaObject::Connection>();
     *once = connect(session_, &Session::opened, this, [this, document, tab, once] {
       disconnect(*once);
@@ -152,6 +162,13 @@ void MainWindow::openSession(const QString& file) {
       if (document == now_) showDocument();
     });
     session_->open(tab["path"].toString());
+  }
+  for (std::size_t k = 0; k < opened.size(); ++k) {
+    const int beside = whole["tabs"].toArray()[static_cast<int>(k)].toObject()["beside"].toInt(-1);
+    if (beside < 0 || beside >= static_cast<int>(opened.size()) ||
+        opened[k] == opened[static_cast<std::size_t>(beside)])
+      continue;
+    setBeside(opened[k], opened[static_cast<std::size_t>(beside)]);
   }
   showTab(std::clamp(whole["current"].toInt(), 0, tabs() - 1));
   remember(file);

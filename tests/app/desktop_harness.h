@@ -56,6 +56,7 @@ public:
     application();
     desktop::WindowOptions options;
     options.session.folder = runFolder;
+    options.session.runsFolder = runFolder.parent_path() / "out";
     options.session.threads = threads;
     options.asksNothing = true;
     window = std::make_unique<desktop::MainWindow>(options);

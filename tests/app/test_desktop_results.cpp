@@ -109,7 +109,7 @@ TEST_CASE("Stale orders are not drawn", "[desktop]") {
   });
   for (quint64 k = 1; k <= orders; ++k) {
     desktop::PictureOrder order;
-    order.frame = frame;
+    order.left.frame = frame;
     order.view.width = order.view.height = 64;
     order.number = k;
     drawing.draw(std::move(order));
