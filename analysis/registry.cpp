@@ -22,6 +22,7 @@ const std::vector<AnalysisKind>& analysisKinds() {
       mixingKind(),
       clumpsKind(),
       forcesKind(),
+      vortexKind(),
   };
   return kinds;
 }

@@ -37,6 +37,7 @@ RunFacts factsOf(const Scene& scene) {
       facts.outlet = p.number("outlet");
     }
   }
+  facts.tank = tankOf(scene);
   for (const auto& species : scene.species) {
     const double density = scene.material(species.material).density;
     if (&species == &scene.species.front())

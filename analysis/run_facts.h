@@ -2,6 +2,7 @@
 // What analyses want to know about a run and a Frame does not say: taken from the run's scene.
 
 #include "analysis/beverloo.h"
+#include "analysis/vortex/vortex_tank.h"
 #include "sim/scene/scene.h"
 
 #include <optional>
@@ -25,6 +26,7 @@ struct RunFacts {
   double outlet = 0;                ///< its width or diameter [m]
   std::optional<Slot> slot;         ///< of the first wedge
   std::optional<double> slotDepth;  ///< [m], of a slot along a periodic axis
+  std::optional<VortexTank> tank;   ///< an upright round one
   double grainDensity = 0;          ///< [kg/m^3], where all species have the same; else 0
   std::string flowProbe;            ///< name of the first flow_rate probe, or empty
   std::string energyProbe;          ///< name of the first energies probe, or empty

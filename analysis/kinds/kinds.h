@@ -17,5 +17,6 @@ AnalysisKind motionKind();
 AnalysisKind mixingKind();
 AnalysisKind clumpsKind();
 AnalysisKind forcesKind();
+AnalysisKind vortexKind();
 
 } // namespace sandglass::analysis

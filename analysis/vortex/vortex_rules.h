@@ -1,0 +1,70 @@
+#pragma once
+// Three sets of rules for the states of grains in a vortex, all thresholds by name.
+//
+// "listed": those of the program in the appendix of H. E. Rice, Simulation and Phases of Macroscopic
+// Particles in Vortex Flow (M.S. thesis, University of Mississippi, 2012); "text": those of its chapter 3,
+// which differ in two places; "own": ours, in times instead of frames, free of units, with windows that
+// slide.
+//
+//             listed                                    text                   own
+//   settled   500 frames, mean |dE| / (1 + E) <= 3e-5   the same               means of the halves of 0.5 s
+//   differ
+//             (J), no centre above the tank                                    by <= 5 % of E in 0.25 s; the
+//             same
+//   fluid     >= 90 % of the last 1500 frames: bins rise outwards by >= 0.1 r, at most one does not (all
+//   three) pinned    innermost centre beyond 2 r in 1000       beyond R - 2 r in      beyond max(2 r, R / 4)
+//   in 50 % of
+//             frames, counted over the whole run        1000 of 2000 frames    the last 1.5 s
+//   spout     5 <= c < n/8 (small), 5 <= c < n/4        large from n/8         n/50 <= c < n/4 in 90 % of the
+//   last
+//             (large) in 2000 frames running                                   1.5 s; large when the mean c
+//             >= n/8
+//   c: grains within 3/4 R that rise by r/100 a frame more than the mean (own: 0.2 sqrt(g r) faster)
+// Where several hold, large spout goes before small spout, pinned, fluid, flat. Flat is settled and nothing
+// else. Ours asks more than 2 r of an empty core because thin beds have larger holes by chance.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sandglass::analysis {
+
+enum class VortexState { unresolved = 0, flat = 1, fluid = 2, pinned = 3, smallSpout = 4, largeSpout = 5 };
+
+/// "unresolved", "flat", "fluid", "pinned", "small spout", "large spout".
+const char* nameOf(VortexState state);
+
+struct VortexRules {
+  std::string name;          ///< "listed", "text" or "own"
+  bool sliding = false;      ///< own: windows end now; else as the source has them
+  bool pinnedAtWall = false; ///< text: every centre near the wall; else an empty core
+  bool pinnedAddsUp = false; ///< listed: frames count over the whole run, in no window
+  bool spoutsApart = false;  ///< text: a large spout begins where a small one ends
+  double settleWindow = 0;   ///< frames (source) or seconds (own), like all windows
+  double settleDrift = 0;    ///< greatest change of energy that is settled
+  double heightLimit = 0;    ///< [m] above the floor that no centre reaches; 0: the tank's top
+  double fluidWindow = 0;
+  double fluidShare = 0.9;    ///< of the frames
+  double fluidViolations = 1; ///< bins that may fail to rise
+  double pinnedWindow = 0;
+  double pinnedShare = 0.5;   ///< of the frames
+  double pinnedCore = 2;      ///< empty core in grain radii, or the margin at the wall
+  double pinnedCoreShare = 0; ///< and in tank radii (own)
+  double spoutWindow = 0;
+  double spoutShare = 1;     ///< of the frames
+  double spoutLeast = 5;     ///< rising grains at least: a number, or a share of all where below 1
+  double spoutSmall = 0.125; ///< share of the grains below which a spout is small
+  double spoutLarge = 0.25;  ///< share from which it is no spout
+
+  /// Every number by name, with what it means, for tables and pictures.
+  std::vector<std::pair<std::string, double>> thresholds() const;
+};
+
+VortexRules listedVortexRules();
+VortexRules textVortexRules();
+VortexRules ownVortexRules();
+/// By name. Throws InputError naming the three.
+VortexRules vortexRules(const std::string& name);
+
+} // namespace sandglass::analysis
