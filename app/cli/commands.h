@@ -16,6 +16,7 @@ void addConvert(CLI::App& app, Action& action);
 void addExplain(CLI::App& app, Action& action);
 void addAnalyze(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
+void addSweep(CLI::App& app, Action& action);
 
 #ifdef SANDGLASS_VIS
 void addRender(CLI::App& app, Action& action);
