@@ -3,6 +3,7 @@
 #include "app/cli/console.h"
 #include "app/cli/render_sources.h"
 #include "sim/base/error.h"
+#include "vis/coarse_fields.h"
 #include "vis/difference_picture.h"
 #include "vis/fit.h"
 #include "vis/readers/vti_field.h"
@@ -196,7 +197,7 @@ private:
 
   FramePtr load(const RenderSource& source, std::size_t index) const {
     FramePtr frame = source.frames->load(index);
-    if (!field_) return frame;
+    if (!field_) return view_.slice.shown ? vis::withFields(frame) : frame;
     auto with = std::make_shared<Frame>(*frame);
     with->fields.push_back(*field_);
     return with;

@@ -3,10 +3,12 @@
 #include "app/desktop/background.h"
 #include "sim/base/error.h"
 #include "vis/chart.h"
+#include "vis/coarse_fields.h"
 #include "vis/history.h"
 #include "vis/pair_view.h"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -191,23 +193,37 @@ std::shared_ptr<const vis::History> DrawingThread::lookBack(std::size_t half, co
   return past.history;
 }
 
+FramePtr DrawingThread::fieldsOf(const FramePtr& frame, std::size_t half) {
+  Averaged& last = averaged_[half];
+  if (last.of != frame) {
+    tbb::task_arena arena(1); // the other cores belong to the simulation
+    last = {frame, arena.execute([&] { return vis::withFields(frame); })};
+  }
+  return last.with;
+}
+
 DrawingThread::Drawn DrawingThread::render(vis::Renderer& renderer, const FrameOrder& left,
                                            const std::optional<FrameOrder>& right, const vis::View& view) {
-  const auto load = [](const FrameOrder& order) {
+  const auto load = [&](const FrameOrder& order) {
     return order.frame ? order.frame : order.source->load(order.index);
   };
-  Drawn drawn;
-  drawn.left = load(left);
+  const auto drawn = [&](const FramePtr& frame, std::size_t half) { // for the slice
+    if (view.slice.shown) return fieldsOf(frame, half);
+    averaged_[half] = {};
+    return frame;
+  };
+  Drawn result;
+  result.left = load(left);
   if (!right) {
     renderer.setHistory(lookBack(0, view, left.run));
-    drawn.image = renderer.draw(*drawn.left, vis::drawableView(view, *drawn.left));
-    return drawn;
+    result.image = renderer.draw(*drawn(result.left, 0), vis::drawableView(view, *result.left));
+    return result;
   }
-  drawn.right = load(*right);
-  const vis::PairViews views = vis::pairViews(*drawn.left, *drawn.right, view, {left.name, right->name});
-  drawn.image = renderer.drawPair(*drawn.left, *drawn.right, views.left, views.right,
-                                  lookBack(0, view, left.run), lookBack(1, view, right->run));
-  return drawn;
+  result.right = load(*right);
+  const vis::PairViews views = vis::pairViews(*result.left, *result.right, view, {left.name, right->name});
+  result.image = renderer.drawPair(*drawn(result.left, 0), *drawn(result.right, 1), views.left, views.right,
+                                   lookBack(0, view, left.run), lookBack(1, view, right->run));
+  return result;
 }
 
 void DrawingThread::drawPicture(vis::Renderer& renderer, const PictureOrder& order) {

@@ -127,7 +127,12 @@ private:
     std::string key; ///< what it is the history of
     std::shared_ptr<const vis::History> history;
   };
-  std::array<Past, 2> past_; ///< of the halves; of the drawing thread alone
+  struct Averaged {
+    FramePtr of, with;
+  };
+  FramePtr fieldsOf(const FramePtr& frame, std::size_t half);
+  std::array<Averaged, 2> averaged_; ///< fields of the frames drawn last, likewise
+  std::array<Past, 2> past_;         ///< of the halves; of the drawing thread alone
   OneSlot<Picture> out_;
   std::thread thread_; ///< last: starts when all else is there
 };

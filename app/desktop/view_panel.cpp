@@ -51,6 +51,9 @@ ViewPanel::ViewPanel(QWidget* parent) : QScrollArea(parent) {
   addClip(form);
   addShown(form);
   addForces(form);
+  form->addRow(heading("Slice through a field"));
+  slice_ = new SliceFields(form);
+  connect(slice_, &SliceFields::changed, this, &ViewPanel::changed);
   setView({});
 }
 
@@ -125,6 +128,8 @@ void ViewPanel::addClip(QFormLayout* form) {
     });
   connect(axis_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &ViewPanel::changed);
   connect(position_, &QSlider::valueChanged, this, &ViewPanel::changed);
+  cuts_ = new ClipFields(form);
+  connect(cuts_, &ClipFields::changed, this, &ViewPanel::changed);
 }
 
 void ViewPanel::addShown(QFormLayout* form) {
@@ -132,21 +137,24 @@ void ViewPanel::addShown(QFormLayout* form) {
   opacity_ = new QSlider(Qt::Horizontal, this);
   opacity_->setObjectName("wallOpacity");
   opacity_->setRange(0, 100);
+  grains_ = new QCheckBox("grains", this);
+  grains_->setObjectName("showGrains");
   walls_ = new QCheckBox("walls", this);
   removedWalls_ = new QCheckBox("removed walls", this);
   legend_ = new QCheckBox("legend", this);
   axes_ = new QCheckBox("axes", this);
   scale_ = new QCheckBox("scale", this);
   auto* shown = new QGridLayout;
-  shown->addWidget(walls_, 0, 0);
-  shown->addWidget(removedWalls_, 0, 1, 1, 2);
+  shown->addWidget(grains_, 0, 0);
+  shown->addWidget(walls_, 0, 1);
+  shown->addWidget(removedWalls_, 2, 0, 1, 2);
   shown->addWidget(legend_, 1, 0);
   shown->addWidget(axes_, 1, 1);
   shown->addWidget(scale_, 1, 2);
   form->addRow(shown);
   form->addRow("Wall tint", opacity_);
   connect(opacity_, &QSlider::valueChanged, this, &ViewPanel::changed);
-  for (auto* box : {walls_, removedWalls_, legend_, axes_, scale_})
+  for (auto* box : {grains_, walls_, removedWalls_, legend_, axes_, scale_})
     connect(box, &QCheckBox::toggled, this, &ViewPanel::changed);
 }
 
@@ -197,6 +205,8 @@ void ViewPanel::enable() {
 void ViewPanel::setFrame(const Frame& frame) {
   lower_ = frame.domain.lower;
   upper_ = frame.domain.upper;
+  cuts_->setSpace(lower_, upper_);
+  slice_->setFrame(frame);
   QStringList vectors{"no arrows"}, now;
   for (const auto& [name, list] : frame.vectors)
     vectors << QString::fromStdString(name);
@@ -228,7 +238,9 @@ void ViewPanel::setFrame(const Frame& frame) {
 void ViewPanel::setView(const vis::View& view) {
   const QSignalBlocker a(quantity_), b(map_), c(range_), d(low_), e(high_), f(opacity_), g(walls_),
       h(legend_), i(axes_), j(scale_), k(removedWalls_), l(clips_), m(axis_), n(position_), o(flip_),
-      p(bands_), q(reversed_), r(chains_), s(arrows_), t(selectionUse_), u(selection_);
+      p(bands_), q(reversed_), r(chains_), s(arrows_), t(selectionUse_), u(selection_), v(grains_);
+  cuts_->setView(view);
+  slice_->setView(view);
   const QString quantity =
       view.colouring.quantity.empty() ? oneColour : QString::fromStdString(view.colouring.quantity);
   if (quantity_->findText(quantity) < 0) quantity_->addItem(quantity);
@@ -238,6 +250,7 @@ void ViewPanel::setView(const vis::View& view) {
   low_->setValue(view.colouring.low);
   high_->setValue(view.colouring.high);
   opacity_->setValue(static_cast<int>(100 * view.wallOpacity + 0.5));
+  grains_->setChecked(view.grains);
   walls_->setChecked(view.walls);
   removedWalls_->setChecked(view.removedWalls);
   legend_->setChecked(view.legend);
@@ -287,15 +300,18 @@ void ViewPanel::apply(vis::View& view) const {
   view.selection.expression = selection_->text().trimmed().toStdString();
   view.selection.use = static_cast<vis::Selection::Use>(selectionUse_->currentIndex());
   view.wallOpacity = opacity_->value() / 100.0;
+  view.grains = grains_->isChecked();
   view.walls = walls_->isChecked();
   view.removedWalls = removedWalls_->isChecked();
   view.legend = legend_->isChecked();
   view.axes = axes_->isChecked();
   view.scaleBar = scale_->isChecked();
-  view.clips.clear();
-  if (!clips_->isChecked()) return;
+  cuts_->apply(view);
+  slice_->apply(view);
+  if (!clips_->isChecked()) return view.clips.clear();
+  if (view.clips.empty()) view.clips.emplace_back(); // further planes are kept as they are
   const double side = flip_->isChecked() ? -1 : 1;
-  view.clips.push_back({clipPoint(), side * Vec3::Unit(axis_->currentIndex())});
+  view.clips.front() = {clipPoint(), side * Vec3::Unit(axis_->currentIndex())};
 }
 
 } // namespace sandglass::desktop

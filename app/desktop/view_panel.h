@@ -1,6 +1,8 @@
 #pragma once
-// How the picture is drawn: colours, their range, one clip plane, which grains, what is shown.
+// How the picture is drawn: colours, their range, cuts, which grains, what is shown, a slice through a field.
 
+#include "app/desktop/clip_fields.h"
+#include "app/desktop/slice_fields.h"
 #include "sim/frame/frame.h"
 #include "vis/view.h"
 
@@ -45,11 +47,13 @@ private:
   QSlider* position_;
   QCheckBox* flip_;
   QSlider* opacity_;
-  QCheckBox *walls_, *removedWalls_, *legend_, *axes_, *scale_;
+  QCheckBox *grains_, *walls_, *removedWalls_, *legend_, *axes_, *scale_;
   QCheckBox *chains_, *reversed_;
   QSpinBox* bands_;
   QComboBox *arrows_, *selectionUse_;
   QLineEdit* selection_;
+  ClipFields* cuts_;
+  SliceFields* slice_;
   Vec3 lower_ = Vec3::Zero(), upper_ = Vec3::Ones();
   std::vector<std::string> names_; ///< of the quantities offered
 };

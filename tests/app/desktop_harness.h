@@ -8,8 +8,12 @@
 #include "sim/scene/scene.h"
 #include "tests/sim/temporary_folder.h"
 
+#include <QAbstractButton>
 #include <QApplication>
+#include <QComboBox>
 #include <QElapsedTimer>
+#include <QScrollArea>
+#include <QSlider>
 #include <QtTest>
 
 #include <fmt/format.h>
@@ -80,7 +84,48 @@ public:
   }
   desktop::Session& session() { return window->session(); }
 
+  // What hands do: a widget is focused, as the tabulator does, and gets keys; or it gets the mouse.
+  void click(const char* name) {
+    auto* button = child<QAbstractButton>(name);
+    if (auto* panel = scrollAreaOf(button)) panel->ensureWidgetVisible(button);
+    QTest::mouseClick(button, Qt::LeftButton, {}, QPoint(8, button->height() / 2));
+  }
+  void type(const char* name, const QString& text) {
+    auto* widget = child<QWidget>(name);
+    widget->setFocus(Qt::TabFocusReason);
+    QTest::keyClick(widget, Qt::Key_A, Qt::ControlModifier);
+    QTest::keyClicks(widget, text);
+    QTest::keyClick(widget, Qt::Key_Return);
+  }
+  static void choose(QComboBox* box, const QString& item) {
+    if (box->findText(item) < 0) throw std::logic_error("there is no item " + item.toStdString());
+    box->setFocus(Qt::TabFocusReason);
+    for (int k = 0; k < box->count() && box->currentText() != item; ++k)
+      QTest::keyClick(box, box->findText(item) > box->currentIndex() ? Qt::Key_Down : Qt::Key_Up);
+  }
+  void choose(const char* name, const QString& item) { choose(child<QComboBox>(name), item); }
+  void slide(const char* name, int value) {
+    auto* slider = child<QSlider>(name);
+    slider->setFocus(Qt::TabFocusReason);
+    while (slider->value() != value) {
+      const int before = slider->value(), far = value - before, page = slider->pageStep();
+      const int key = far >= page    ? Qt::Key_PageUp
+                      : far > 0      ? Qt::Key_Right
+                      : far <= -page ? Qt::Key_PageDown
+                                     : Qt::Key_Left;
+      QTest::keyClick(slider, static_cast<Qt::Key>(key));
+      if (slider->value() == before) throw std::logic_error("the slider does not move");
+    }
+  }
+
   std::unique_ptr<desktop::MainWindow> window;
+
+private:
+  static QScrollArea* scrollAreaOf(QWidget* widget) {
+    for (QWidget* w = widget; w; w = w->parentWidget())
+      if (auto* area = qobject_cast<QScrollArea*>(w)) return area;
+    return nullptr;
+  }
 };
 
 /// Beads of 2 mm, `side` by `side` by `layers`, on a cube lattice with hair gaps, that fall and spread for
