@@ -205,6 +205,8 @@ int analyze(AnalyzeOptions options) {
   }
   if (options.beverloo || sources.size() > 1)
     attempt(options.beverloo, "Beverloo's fit", "", [&] { analyzeBeverloo(sources, options, files); });
+  for (const auto& source : sources)
+    printRemarks(*source.frames);
   fmt::print("results in {}\n", options.folder);
   return 0;
 }
@@ -216,7 +218,7 @@ void addAnalyze(CLI::App& app, Action& action) {
   AnalyzeOptions& o = *options;
   CLI::App* command =
       app.add_subcommand("analyze", "Curves and numbers from runs or frame files: CSV, JSON, charts");
-  command->add_option("source", o.sources, "run folders or .vtkhdf files")->type_name("RUN|FILE");
+  command->add_option("source", o.sources, "run folders, .vtkhdf files, files of other programs, patterns such as 'dump.*' (one sequence)")->type_name("RUN|FILE");
   command->add_option("-o,--output", o.folder, "folder for the results")->type_name("DIR");
   for (const auto& kind : analysisKinds())
     command->add_flag_callback(
@@ -278,6 +280,7 @@ void addAnalyze(CLI::App& app, Action& action) {
                    "for Beverloo's law (default: 0.59 of the grains' density)")
       ->type_name("DENSITY");
   command->add_flag("--csv-only", o.csvOnly, "no JSON, no charts");
+  addImportOptions(*command, o.import);
   command->callback([options, &action] { action = [options] { return analyze(*options); }; });
 }
 

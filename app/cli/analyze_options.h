@@ -2,6 +2,7 @@
 // What `sandglass analyze` is asked for, and the small languages of its options.
 
 #include "analysis/pair_correlation.h"
+#include "app/cli/import_options.h"
 
 #include <cstddef>
 #include <optional>
@@ -26,6 +27,7 @@ struct AnalyzeOptions {
   std::vector<std::string> knobs; ///< "gr.bins=400"
   std::string up;                 ///< "0,0,1"
   bool list = false;
+  ImportArguments import;
 };
 
 /// "5d" in grain diameters, "12 mm" or "0.012" in metres. Throws InputError naming the option.

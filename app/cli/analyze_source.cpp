@@ -2,8 +2,6 @@
 
 #include "analysis/grain_sizes.h"
 #include "sim/base/error.h"
-#include "sim/io/frame_segment.h"
-#include "sim/io/segment_names.h"
 #include "sim/scene/scene.h"
 
 #include <fmt/format.h>
@@ -18,12 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string sceneTextOf(const fs::path& path) {
-  if (!fs::is_directory(path)) return SegmentReader(path).sceneText();
-  const auto segments = segmentFiles(path / "frames");
-  return segments.empty() ? "" : SegmentReader(segments.front()).sceneText();
-}
-
 bool gatesClosed(const Frame& frame) {
   return std::all_of(frame.walls.begin(), frame.walls.end(), [](const FrameWall& w) { return w.active; });
 }
@@ -33,14 +25,17 @@ bool gatesClosed(const Frame& frame) {
 Source openSource(const std::string& text, bool several, const AnalyzeOptions& options) {
   Source source;
   source.path = text;
-  source.frames = openFrames(text);
+  source.frames = openForCommand(text, options.import);
   if (source.frames->size() == 0) throw InputError(fmt::format("{}: there are no frames yet", text));
-  if (const std::string scene = sceneTextOf(source.path); !scene.empty())
+  if (const std::string scene = source.frames->sceneText(); !scene.empty())
     source.facts = factsOf(parseScene(scene, text + " (scene inside)"));
   if (!options.up.empty()) source.facts.up = directionOption("--up", options.up);
   fs::path name = source.path;
   if (!name.has_filename()) name = name.parent_path(); // "run/"
-  if (several) source.prefix = name.stem().string() + "_";
+  if (several) {
+    source.prefix = name.stem().string() + "_";
+    std::erase_if(source.prefix, [](char c) { return c == '*' || c == '?' || c == '[' || c == ']'; });
+  }
   return source;
 }
 

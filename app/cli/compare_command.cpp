@@ -2,6 +2,7 @@
 
 #include "analysis/compare.h"
 #include "app/cli/commands.h"
+#include "app/cli/import_options.h"
 #include "app/cli/result_files.h"
 #include "sim/base/error.h"
 #include "sim/io/run_folder.h"
@@ -18,10 +19,12 @@ namespace {
 struct CompareArguments {
   std::string a, b, folder;
   double tolerance = -1, probability = -1;
+  ImportArguments import;
 };
 
 int execute(const CompareArguments& arguments) {
-  const auto a = openFrames(arguments.a), b = openFrames(arguments.b);
+  const auto a = openForCommand(arguments.a, arguments.import),
+             b = openForCommand(arguments.b, arguments.import);
   if (a->size() == 0 || b->size() == 0)
     throw InputError(fmt::format("{}: there are no frames yet", a->size() == 0 ? arguments.a : arguments.b));
   // Frames are matched by their times: for each of A the nearest of B, within half of A's interval.
@@ -100,6 +103,7 @@ void addCompare(CLI::App& app, Action& action) {
       ->add_option("--probability", arguments->probability,
                    "exit with 1 when a distribution's probability of being the same is lower")
       ->check(CLI::Range(0.0, 1.0));
+  addImportOptions(*command, arguments->import);
   command->callback([arguments, &action] { action = [arguments] { return execute(*arguments); }; });
 }
 

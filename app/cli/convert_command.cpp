@@ -1,11 +1,9 @@
 // sandglass convert: frames into forms that other programs read.
 
 #include "app/cli/commands.h"
-#include "app/cli/console.h"
+#include "app/cli/import_options.h"
 #include "sim/base/error.h"
-#include "sim/io/frame_segment.h"
 #include "sim/io/run_folder.h"
-#include "sim/io/segment_names.h"
 #include "sim/io/table_export.h"
 
 #include <fmt/format.h>
@@ -20,6 +18,7 @@ namespace fs = std::filesystem;
 
 struct ConvertArguments {
   std::string input, output, frame;
+  ImportArguments import;
 };
 
 /// "last", or a number from 0; negative ones count from the end.
@@ -39,16 +38,10 @@ std::size_t frameNumber(const std::string& text, std::size_t count, const std::s
                   source, count - 1));
 }
 
-std::string sceneTextOf(const fs::path& input) {
-  if (!fs::is_directory(input)) return SegmentReader(input).sceneText();
-  const auto segments = segmentFiles(input / "frames");
-  return segments.empty() ? "" : SegmentReader(segments.front()).sceneText();
-}
-
 int execute(const ConvertArguments& arguments) {
   const fs::path output(arguments.output);
   const std::string form = output.extension().string();
-  const auto frames = openFrames(arguments.input);
+  const auto frames = openForCommand(arguments.input, arguments.import);
   if (const fs::path folder = output.parent_path(); !folder.empty()) fs::create_directories(folder);
   const bool one = !arguments.frame.empty();
   const std::size_t chosen =
@@ -64,8 +57,9 @@ int execute(const ConvertArguments& arguments) {
   else if (form == ".pvd")
     exportPvd(*frames, output);
   else if (form == ".vtkhdf") {
-    const std::string scene = sceneTextOf(arguments.input);
+    const std::string scene = frames->sceneText();
     const bool single =
+        !scene.empty() &&
         parseScene(scene, arguments.input + " (scene inside)").output.singlePrecisionPositions;
     exportVtkhdf(*frames, scene, single, output);
   } else
@@ -84,10 +78,14 @@ int execute(const ConvertArguments& arguments) {
 void addConvert(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command = app.add_subcommand("convert", "Write frames as .vtp, .pvd, .csv or one .vtkhdf");
-  command->add_option("RUN", arguments->input, "folder of a run, or one .vtkhdf file")->required();
+  command
+      ->add_option("RUN", arguments->input,
+                   "folder of a run, a .vtkhdf file, a file of another program, or a pattern of them")
+      ->required();
   command->add_option("OUT", arguments->output, "file to write; its ending names the form")->required();
   command->add_option("--frame", arguments->frame,
                       "only this frame: a number, negative from the end, or 'last'");
+  addImportOptions(*command, arguments->import);
   command->callback([arguments, &action] { action = [arguments] { return execute(*arguments); }; });
 }
 

@@ -80,6 +80,7 @@ void addRender(CLI::App& app, Action& action) {
   command->add_option("--threshold", o.threshold, "share of pixels that may differ by more than 8 of 255")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  addImportOptions(*command, o.import);
   command->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 

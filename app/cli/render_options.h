@@ -1,6 +1,7 @@
 #pragma once
 // What `sandglass render` is asked for, and the small languages of its options.
 
+#include "app/cli/import_options.h"
 #include "vis/renderer.h"
 
 #include <cstddef>
@@ -20,6 +21,7 @@ struct RenderOptions {
   double framesPerSecond = 25, threshold = 0.001;
   double turn = 0;     ///< [deg]
   int supersample = 0; ///< 0: the view's
+  ImportArguments import;
   bool transparent = false, orthographic = false, forceChains = false;
 };
 

@@ -1,12 +1,12 @@
 #include "app/cli/render_sources.h"
 
 #include "sim/base/error.h"
+#include "sim/io/import/reader_table.h"
 #include "vis/picture_record.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <glob.h>
 #include <set>
 
 namespace sandglass::cli {
@@ -17,21 +17,21 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> expanded(const std::string& name) {
   if (fs::exists(name) || name.find_first_of("*?[") == std::string::npos) return {name};
-  glob_t found{};
   std::vector<std::string> names;
-  if (::glob(name.c_str(), 0, nullptr, &found) == 0)
-    for (std::size_t k = 0; k < found.gl_pathc; ++k)
-      names.emplace_back(found.gl_pathv[k]);
-  ::globfree(&found);
+  bool foreign = true;
+  for (const auto& file : filesOfPattern(name)) {
+    foreign = foreign && fs::is_regular_file(file) && file.extension() != ".vtkhdf" && !vis::isPicture(file);
+    names.push_back(file.string());
+  }
   if (names.empty()) throw InputError(fmt::format("{}: nothing fits this pattern", name));
-  return names;
+  return foreign ? std::vector<std::string>{name} : names;
 }
 
-RenderSource opened(const std::string& name) {
+RenderSource opened(const std::string& name, const ImportArguments& import) {
   RenderSource source;
   if (vis::isPicture(name)) {
     const vis::PictureRecord record = vis::readRecord(name);
-    source.frames = openFrames(vis::locateSource(record, name));
+    source.frames = openForCommand(vis::locateSource(record, name).string(), import);
     source.view = record.view;
     if (fs::path(name).extension() == ".png") {
       if (record.frame >= source.frames->size())
@@ -40,11 +40,12 @@ RenderSource opened(const std::string& name) {
       source.only = record.frame;
     }
   } else {
-    source.frames = openFrames(name);
+    source.frames = openForCommand(name, import);
   }
   fs::path given = source.frames->name();
   if (!given.has_filename()) given = given.parent_path(); // "run/"
   source.stem = given.stem().string();
+  std::erase_if(source.stem, [](char c) { return c == '*' || c == '?' || c == '[' || c == ']'; });
   return source;
 }
 
@@ -64,13 +65,13 @@ void tellApart(std::vector<RenderSource>& sources) {
 
 } // namespace
 
-std::vector<RenderSource> openSources(const std::vector<std::string>& names) {
+std::vector<RenderSource> openSources(const std::vector<std::string>& names, const ImportArguments& import) {
   std::vector<RenderSource> sources;
   std::vector<std::string> faults;
   for (const auto& name : names)
     try {
       for (const auto& path : expanded(name))
-        sources.push_back(opened(path));
+        sources.push_back(opened(path, import));
     } catch (const InputError& e) {
       faults.insert(faults.end(), e.sentences().begin(), e.sentences().end());
     }

@@ -21,8 +21,9 @@ struct RenderSource {
   std::shared_ptr<const vis::History> history;
 };
 
-/// Opens every source; patterns (*, ?, [..]) are expanded. Throws InputError with every fault at once.
-std::vector<RenderSource> openSources(const std::vector<std::string>& names);
+/// Opens every source; patterns (*, ?, [..]) are expanded, those of other programs'
+/// files to one source. Throws InputError with every fault at once.
+std::vector<RenderSource> openSources(const std::vector<std::string>& names, const ImportArguments& import);
 
 /// Index of the frame whose time is nearest.
 std::size_t nearestFrame(const FrameSource& frames, double time);

@@ -218,7 +218,7 @@ std::vector<RenderSource> sourcesOf(const RenderOptions& options) {
         "nothing to write: give a folder with -o, a film with --movie or a picture with --reference");
   if (options.sources.empty() == options.sideBySide.empty())
     throw InputError("nothing to draw: name runs or files, or two of them with --side-by-side");
-  return openSources(options.sideBySide.empty() ? options.sources : options.sideBySide);
+  return openSources(options.sideBySide.empty() ? options.sources : options.sideBySide, options.import);
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "sim/base/error.h"
 #include "sim/io/frame_segment.h"
+#include "sim/io/import/import_settings.h"
+#include "sim/io/import/reader_table.h"
 #include "sim/io/run_folder.h"
 #include "sim/io/segment_names.h"
 #include "sim/walls/wall_registry.h"
@@ -70,6 +72,10 @@ public:
     }));
   }
 
+  std::string sceneText() const override {
+    return segments_.empty() ? std::string() : SegmentReader(segments_.front()).sceneText();
+  }
+
   bool refresh() override {
     if (folder_.empty()) return false;
     const std::lock_guard lock(mutex_);
@@ -102,11 +108,24 @@ private:
   mutable std::optional<std::map<std::string, std::shared_ptr<const WallShape>>> walls_; ///< one scene a run
 };
 
+ImportSettings settingsBeside(const fs::path& file) {
+  const auto found = importSettingsBeside(file);
+  return found ? readImportSettings(*found) : ImportSettings{};
+}
+
 } // namespace
 
-std::unique_ptr<FrameSource> openFrames(const fs::path& path) {
-  if (!fs::exists(path)) throw InputError(fmt::format("{}: there is no such file or folder", path.string()));
-  if (!fs::is_directory(path)) return std::make_unique<SegmentSource>(path, fs::path{});
+std::unique_ptr<FrameSource> openFrames(const fs::path& path, const ImportSettings* settings) {
+  if (!fs::exists(path)) {
+    auto files = filesOfPattern(path.string());
+    if (files.empty()) throw InputError(fmt::format("{}: there is no such file or folder", path.string()));
+    const ImportSettings chosen = settings ? *settings : settingsBeside(files.front());
+    return openSequence(path.string(), std::move(files), chosen);
+  }
+  if (!fs::is_directory(path)) {
+    if (path.extension() == ".vtkhdf") return std::make_unique<SegmentSource>(path, fs::path{});
+    return openForeign(std::make_shared<const ImportFile>(path), settings ? *settings : settingsBeside(path));
+  }
   const fs::path frames = path / "frames";
   if (fs::is_directory(frames)) return std::make_unique<SegmentSource>(path, frames);
   throw InputError(

@@ -14,7 +14,10 @@
 
 namespace sandglass {
 
-/// Random access to the frames of one source (a run folder, a segment, later an imported file).
+struct ImportSettings;
+
+/// Random access to the frames of one source (a run folder, a segment, a file of another program, many of
+/// them).
 class FrameSource {
 public:
   virtual ~FrameSource() = default;
@@ -24,10 +27,19 @@ public:
   virtual std::string name() const = 0; ///< path as the user gave it
   /// Look for frames written since (a run still going); true when there are more.
   virtual bool refresh() { return false; }
+  /// Whether size() counts all that the source holds. While it does not, refresh() looks on for a moment.
+  virtual bool complete() const { return true; }
+  /// The resolved scene that goes with the frames; empty when there is none.
+  virtual std::string sceneText() const { return {}; }
+  /// Sentences for the user: what was taken for granted, and where a file stops making sense.
+  virtual std::vector<std::string> remarks() const { return {}; }
 };
 
-/// Opens a run folder or a single .vtkhdf segment. Throws InputError with a sentence.
-std::unique_ptr<FrameSource> openFrames(const std::filesystem::path& path);
+/// Opens a run folder, a .vtkhdf file, a file of another program (sim/io/import/reader_table.h) or all files
+/// that a pattern fits. Throws InputError with a sentence. Without settings those that lie beside a foreign
+/// file hold.
+std::unique_ptr<FrameSource> openFrames(const std::filesystem::path& path,
+                                        const ImportSettings* settings = nullptr);
 
 /// Writes segments: frames/00000.vtkhdf, ... VTKHDF PolyData with Steps. Temporary name, closed, synced,
 /// renamed. Segments close at 64 MB or 30 s of wall time.

@@ -73,7 +73,7 @@ TEST_CASE("Opening what is not a run says what is wrong", "[io]") {
   std::ofstream(folder / "notes.txt") << "hello";
   CHECK_THROWS_WITH(openFrames(folder / "absent"), Contains("there is no such file or folder"));
   CHECK_THROWS_WITH(openFrames(folder.path()), Contains("has no frames/"));
-  CHECK_THROWS_WITH(openFrames(folder / "notes.txt"), Contains("notes.txt: this is no whole frame file"));
+  CHECK_THROWS_WITH(openFrames(folder / "notes.txt"), Contains("notes.txt: byte 0: found"));
   const auto run = smallRun(folder / "r");
   CHECK_THROWS_WITH(run->load(15), Contains("frame 15 was asked for and there are 15"));
   std::filesystem::create_directories(folder / "empty" / "frames");
