@@ -58,6 +58,8 @@ void printParts(const Scene& scene) {
   for (const auto& w : scene.walls)
     fmt::print("  wall       {}: {} of {}{}\n", w.name, w.shape.kind, w.material,
                w.motion.kind.empty() ? "" : ", moves: " + w.motion.kind);
+  for (const auto& f : scene.fields)
+    fmt::print("  field      {}: {}\n", f.name, f.what.kind);
   for (const auto& o : scene.outlets)
     fmt::print("  outlet     {}\n", o.name);
   for (const auto& f : scene.fills)

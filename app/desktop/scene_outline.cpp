@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/contact/law_registry.h"
+#include "sim/fields/field_registry.h"
 #include "sim/grains/fill_registry.h"
 #include "sim/grains/size_distribution.h"
 #include "sim/scene/probe_registry.h"
@@ -90,6 +91,9 @@ public:
     each("wall", true, [&](const toml::table& t, const std::string& path, const std::string& title) {
       add(t, path, title, wallKeys(), "kind", kindsOf(wallKinds()));
       below(t, "motion", path, title, {}, "kind", kindsOf(motionKinds()));
+    });
+    each("field", true, [&](const toml::table& t, const std::string& path, const std::string& title) {
+      add(t, path, title, fieldKeys(), "kind", kindsOf(fieldKinds()));
     });
     each("outlet", true, [&](const toml::table& t, const std::string& path, const std::string& title) {
       add(t, path, title, outletKeys(), "", {});

@@ -166,6 +166,10 @@ void Run::change(EventSpec event) {
   for (const auto& name : event.removeWalls)
     if (std::none_of(walls.begin(), walls.end(), [&](const WallSpec& w) { return w.name == name; }))
       throw InputError(fmt::format("the scene has no wall '{}' to remove", name));
+  for (const FieldFactor& f : event.fields)
+    if (!std::isfinite(f.factor) || std::none_of(impl_->scene.fields.begin(), impl_->scene.fields.end(),
+                                                 [&](const FieldSpec& s) { return s.name == f.field; }))
+      throw InputError(fmt::format("the scene has no field '{}', or its strength is no number", f.field));
   if ((event.gravity && !event.gravity->allFinite()) || !std::isfinite(event.drag.value_or(0)) ||
       event.drag.value_or(0) < 0)
     throw InputError("gravity and drag are finite numbers, and drag is not negative");

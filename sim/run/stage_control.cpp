@@ -28,6 +28,8 @@ void StageControl::begin() {
   const StageSpec& stage = scene_.stages[stage_];
   for (const auto& wall : stage.removeWalls)
     solver_.removeWall(wall);
+  for (const FieldFactor& f : stage.fields)
+    solver_.setField(f.field, f.factor);
   drag_ = stage.drag.value_or(0);
   solver_.setDrag(drag_);
   solver_.beginStage(stage.name);
@@ -74,6 +76,10 @@ bool StageControl::applyEvents() {
       drag_ = *event.drag;
       solver_.setDrag(drag_);
       what += fmt::format("; drag is {:.6g} 1/s", drag_);
+    }
+    for (const FieldFactor& f : event.fields) {
+      solver_.setField(f.field, f.factor);
+      what += fmt::format("; the field '{}' is {:.6g} times as strong as the scene says", f.field, f.factor);
     }
     if (event.endStage) {
       endNow_ = true;
@@ -202,8 +208,8 @@ double StageControl::stageFraction() const {
   if (stage.massDischarged)
     fraction = std::max(fraction, (solver_.flow().massDischarged - massAtStart_) / *stage.massDischarged);
   if (stage.untilEmpty && grainsAtStart_ > 0)
-    fraction =
-        std::max(fraction, 1 - static_cast<double>(solver_.freeGrains()) / static_cast<double>(grainsAtStart_));
+    fraction = std::max(fraction,
+                        1 - static_cast<double>(solver_.freeGrains()) / static_cast<double>(grainsAtStart_));
   if (stage.recirculations && grainsAtStart_ > 0)
     fraction = std::max(fraction, static_cast<double>(solver_.flow().grainsRecycled - recycledAtStart_) /
                                       (*stage.recirculations * static_cast<double>(grainsAtStart_)));

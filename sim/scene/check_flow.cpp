@@ -99,8 +99,8 @@ void checkEvents(const Scene& scene, FaultList& faults) {
       if (std::none_of(scene.walls.begin(), scene.walls.end(),
                        [&](const WallSpec& w) { return w.name == name; }))
         faults.wrong(path + ".remove_walls", fmt::format("but the scene has no [[wall]] '{}'", name));
-    if (!event.gravity && !event.drag && event.removeWalls.empty() && !event.endStage)
-      faults.about(path, "changes nothing; give it gravity, drag, remove_walls or end_stage");
+    if (!event.gravity && !event.drag && event.removeWalls.empty() && event.fields.empty() && !event.endStage)
+      faults.about(path, "changes nothing; give it gravity, drag, remove_walls, fields or end_stage");
   }
 }
 

@@ -135,6 +135,7 @@ void checkNames(const Scene& scene, FaultList& faults) {
   checkNamesOf("material", scene.materials, faults);
   checkNamesOf("species", scene.species, faults);
   checkNamesOf("wall", scene.walls, faults);
+  checkNamesOf("field", scene.fields, faults);
   checkNamesOf("outlet", scene.outlets, faults);
   checkNamesOf("stage", scene.stages, faults);
   checkNamesOf("probe", scene.probes, faults);

@@ -77,6 +77,20 @@ struct Share {
   bool operator==(const Share&) const = default;
 };
 
+/// What acts on grains beside contacts and gravity.
+struct FieldSpec {
+  std::string name;
+  Choice what; ///< a FieldKind
+  bool operator==(const FieldSpec&) const = default;
+};
+
+/// Strength of a field over what the scene says of it.
+struct FieldFactor {
+  std::string field;
+  double factor = 1;
+  bool operator==(const FieldFactor&) const = default;
+};
+
 struct FillSpec {
   Choice how;                 ///< "random", "rain", "lattice", "list"
   std::vector<Share> mixture; ///< empty for "list", whose rows name their species
@@ -89,6 +103,7 @@ struct FillSpec {
 struct StageSpec {
   std::string name;
   std::vector<std::string> removeWalls;
+  std::vector<FieldFactor> fields;            ///< from now on
   std::optional<double> drag;                 ///< [1/s], rate at which velocities and spins decay meanwhile
   std::optional<double> duration;             ///< [s] from the start of the stage
   std::optional<double> settledKineticEnergy; ///< [J] per grain, mean; checked after `settledAfter`
@@ -108,6 +123,7 @@ struct EventSpec {
   std::optional<Vec3> gravity{};          ///< [m/s^2], from now on
   std::optional<double> drag{};           ///< [1/s], until the next stage begins
   std::vector<std::string> removeWalls{}; ///< from now on
+  std::vector<FieldFactor> fields{};      ///< from now on
   bool endStage = false;                  ///< the stage ends after this step
   bool operator==(const EventSpec&) const = default;
 };
@@ -154,6 +170,7 @@ struct AccuracySpec {
   bool fastArithmetic = false;    ///< roots and quotients to two units in the last place
   double skin = 0;                ///< list skin as a share of the mean grain diameter
   double maximumOverlap = 0;      ///< share of the smaller radius at which the run stops
+  double maximumTravel = 0;       ///< share of the smallest radius that a grain may go in a step
   bool operator==(const AccuracySpec&) const = default;
 };
 
@@ -169,6 +186,7 @@ struct Scene {
   std::vector<ContactSpec> contacts;
   std::vector<Species> species;
   std::vector<WallSpec> walls;
+  std::vector<FieldSpec> fields;
   std::vector<FillSpec> fills;
   std::vector<OutletSpec> outlets;
   std::vector<StageSpec> stages;

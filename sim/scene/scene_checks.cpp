@@ -1,5 +1,6 @@
 #include "sim/scene/scene_checks.h"
 
+#include "sim/scene/check_fields.h"
 #include "sim/scene/check_fills.h"
 #include "sim/scene/check_flow.h"
 #include "sim/scene/check_parts.h"
@@ -14,6 +15,7 @@ void checkScene(const Scene& scene, FaultList& faults) {
   checkMaterials(scene, faults);
   checkContacts(scene, faults);
   checkWallsAndOutlets(scene, faults);
+  checkFields(scene, faults);
   checkStages(scene, faults);
   checkEvents(scene, faults);
   checkFills(scene, faults);

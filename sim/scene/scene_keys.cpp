@@ -12,6 +12,21 @@ const ParameterSpec name{
 const ParameterSpec materialName{
     .name = "material", .type = text, .unit = "1", .description = "name of a [[material]]"};
 
+const ParameterSpec fieldNames{.name = "fields",
+                               .type = texts,
+                               .unit = "1",
+                               .description =
+                                   "fields whose strength changes now, in the order of field_factors",
+                               .fallback = std::vector<std::string>{}};
+const ParameterSpec fieldFactors{
+    .name = "field_factors",
+    .type = numbers,
+    .unit = "1",
+    .description = "strengths of these fields from now on over what their tables say; 0: off",
+    .fallback = std::vector<double>{},
+    .minimum = -1e6,
+    .maximum = 1e6};
+
 ParameterSpec positive(const char* key, const char* unit, const char* description) {
   return {.name = key,
           .type = number,
@@ -122,6 +137,11 @@ const Keys& wallKeys() {
   return keys;
 }
 
+const Keys& fieldKeys() {
+  static const Keys keys{name};
+  return keys;
+}
+
 const Keys& outletKeys() {
   static const Keys keys{
       name,
@@ -186,6 +206,8 @@ const Keys& stageKeys() {
                           .unit = "1",
                           .description = "walls that vanish as it begins",
                           .fallback = std::vector<std::string>{}},
+                         fieldNames,
+                         fieldFactors,
                          positive("drag", "1/s",
                                   "rate at which velocities and spins decay while it lasts, to settle a bed "
                                   "sooner")};
@@ -237,6 +259,8 @@ const Keys& eventKeys() {
                           .unit = "1",
                           .description = "walls that vanish",
                           .fallback = std::vector<std::string>{}},
+                         fieldNames,
+                         fieldFactors,
                          {.name = "end_stage",
                           .type = boolean,
                           .unit = "1",
@@ -291,52 +315,61 @@ const Keys& outputKeys() {
 }
 
 const Keys& accuracyKeys() {
-  static const Keys keys{{.name = "level",
-                          .type = text,
-                          .unit = "1",
-                          .description = "fills in the knobs that are not given",
-                          .fallback = std::string("standard"),
-                          .choices = {"draft", "standard", "reference"}},
-                         {.name = "steps_per_contact",
-                          .type = number,
-                          .unit = "1",
-                          .description = "steps in the shortest collision",
-                          .optional = true,
-                          .minimum = 6,
-                          .maximum = 10000},
-                         positive("time_step", "s", "step, when the scene fixes it"),
-                         {.name = "stiffness_scale",
-                          .type = number,
-                          .unit = "1",
-                          .description =
-                              "stiffness of all contacts over what the laws say; steps grow as one "
-                              "over its root, overlaps as one over it",
-                          .fallback = 1.0,
-                          .minimum = 1e-6,
-                          .maximum = 1e6},
-                         {.name = "arithmetic",
-                          .type = text,
-                          .unit = "1",
-                          .description = "portable: the same bits on every processor; fast: roots and quotients of "
-                                         "common laws to two units in the last place, where AVX-512 is there",
-                          .fallback = std::string("portable"),
-                          .choices = {"portable", "fast"}},
-                         {.name = "skin",
-                          .type = number,
-                          .unit = "1",
-                          .description = "of neighbour lists, as a share of the mean diameter",
-                          .fallback = 0.02,
-                          .minimum = 0,
-                          .maximum = 2,
-                          .openMinimum = true},
-                         {.name = "maximum_overlap",
-                          .type = number,
-                          .unit = "1",
-                          .description = "share of the smaller radius at which a run stops",
-                          .fallback = 0.5,
-                          .minimum = 0,
-                          .maximum = 1,
-                          .openMinimum = true}};
+  static const Keys keys{
+      {.name = "level",
+       .type = text,
+       .unit = "1",
+       .description = "fills in the knobs that are not given",
+       .fallback = std::string("standard"),
+       .choices = {"draft", "standard", "reference"}},
+      {.name = "steps_per_contact",
+       .type = number,
+       .unit = "1",
+       .description = "steps in the shortest collision",
+       .optional = true,
+       .minimum = 6,
+       .maximum = 10000},
+      positive("time_step", "s", "step, when the scene fixes it"),
+      {.name = "stiffness_scale",
+       .type = number,
+       .unit = "1",
+       .description = "stiffness of all contacts over what the laws say; steps grow as one "
+                      "over its root, overlaps as one over it",
+       .fallback = 1.0,
+       .minimum = 1e-6,
+       .maximum = 1e6},
+      {.name = "arithmetic",
+       .type = text,
+       .unit = "1",
+       .description = "portable: the same bits on every processor; fast: roots and quotients of "
+                      "common laws to two units in the last place, where AVX-512 is there",
+       .fallback = std::string("portable"),
+       .choices = {"portable", "fast"}},
+      {.name = "skin",
+       .type = number,
+       .unit = "1",
+       .description = "of neighbour lists, as a share of the mean diameter",
+       .fallback = 0.02,
+       .minimum = 0,
+       .maximum = 2,
+       .openMinimum = true},
+      {.name = "maximum_overlap",
+       .type = number,
+       .unit = "1",
+       .description = "share of the smaller radius at which a run stops",
+       .fallback = 0.5,
+       .minimum = 0,
+       .maximum = 1.5,
+       .openMinimum = true},
+      {.name = "maximum_travel",
+       .type = number,
+       .unit = "1",
+       .description = "share of the smallest radius that a grain may go in a step; a run stops "
+                      "where one goes further",
+       .fallback = 0.25,
+       .minimum = 0,
+       .maximum = 1,
+       .openMinimum = true}};
   return keys;
 }
 

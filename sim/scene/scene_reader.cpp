@@ -2,6 +2,8 @@
 
 #include "sim/base/error.h"
 #include "sim/contact/law_registry.h"
+#include "sim/fields/field.h" // for the result of FieldKind::make
+#include "sim/fields/field_registry.h"
 #include "sim/grains/fill_registry.h"
 #include "sim/grains/size_distribution.h"
 #include "sim/scene/grain_rows.h"
@@ -46,6 +48,8 @@ public:
       readSpecies(*table, path);
     for (const auto& [table, path] : top_.subtables("wall"))
       readWall(*table, path);
+    for (const auto& [table, path] : top_.subtables("field"))
+      readField(*table, path);
     for (const auto& [table, path] : top_.subtables("outlet"))
       readOutlet(*table, path);
     for (const auto& [table, path] : top_.subtables("stage"))
@@ -162,6 +166,15 @@ private:
     } catch (const InputError& problem) {
       faults_.about(path, std::string("contradicts itself: ") + problem.what());
     }
+  }
+
+  void readField(const ValueTable& table, const std::string& path) {
+    FieldSpec& field = scene_.fields.emplace_back();
+    TableReader in(table, path, faults_);
+    readKeys(in, fieldKeys(), field);
+    const FieldKind* kind = in.choose("kind", fieldKinds(), field.what);
+    in.reportUnknown();
+    if (kind && !faults_.has(path)) tryToMake(*kind, field.what, path);
   }
 
   void readOutlet(const ValueTable& table, const std::string& path) {

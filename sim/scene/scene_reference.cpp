@@ -1,6 +1,7 @@
 #include "sim/scene/scene_reference.h"
 
 #include "sim/contact/law_registry.h"
+#include "sim/fields/field_registry.h"
 #include "sim/grains/fill_registry.h"
 #include "sim/grains/size_distribution.h"
 #include "sim/scene/probe_registry.h"
@@ -119,6 +120,10 @@ std::string sceneReference() {
           "A wall that moves has `motion = { kind = \"…\", … }` besides; its shape is described where it is "
           "when its motion begins.\n\n";
   text += kinds(motionKinds(), "motion.kind");
+  text +=
+      "## `[[field]]`: what acts on grains beside contacts and gravity\n\nFlows say how a fluid moves, drags "
+      "draw grains along with it, shields weaken drags; docs/vortex.md has the formulas.\n\n" +
+      table(fieldKeys()) + kinds(fieldKinds(), "kind");
   text +=
       "## `[[outlet]]`: a plane beyond which grains leave the run\n\n" + table(outletKeys()) +
       "and, if wanted, `recycle = { … }`: grains that pass are put back over what lies in a box, at random "

@@ -1,6 +1,7 @@
 #include "sim/scene/scene_sections.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sandglass {
 
@@ -17,6 +18,27 @@ template <class T> void get(const Parameters& values, const char* key, T& target
 
 void put(Parameters& values, const char* key, const std::optional<double>& value) {
   if (value) values.set(key, *value);
+}
+
+void get(const Parameters& values, std::vector<FieldFactor>& fields) {
+  if (!values.has("fields") || !values.has("field_factors")) return;
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  const auto& names = values.texts("fields");
+  const auto& factors = values.numbers("field_factors");
+  fields.clear();
+  for (std::size_t k = 0; k < std::max(names.size(), factors.size()); ++k) // checks find what is left over
+    fields.push_back({k < names.size() ? names[k] : "", k < factors.size() ? factors[k] : missing});
+}
+
+void put(Parameters& values, const std::vector<FieldFactor>& fields) {
+  std::vector<std::string> names;
+  std::vector<double> factors;
+  for (const FieldFactor& f : fields) {
+    names.push_back(f.field);
+    factors.push_back(f.factor);
+  }
+  values.set("fields", names);
+  values.set("field_factors", factors);
 }
 
 constexpr const char* axes[] = {"x", "y", "z"};
@@ -131,6 +153,16 @@ Parameters store(const WallSpec& wall) {
   return values;
 }
 
+void load(const Parameters& values, FieldSpec& field) {
+  get(values, "name", field.name);
+}
+
+Parameters store(const FieldSpec& field) {
+  Parameters values;
+  values.set("name", field.name);
+  return values;
+}
+
 void load(const Parameters& values, OutletSpec& outlet) {
   get(values, "name", outlet.name);
   get(values, "point", outlet.point);
@@ -193,6 +225,7 @@ Parameters store(const Share& share) {
 void load(const Parameters& values, StageSpec& stage) {
   get(values, "name", stage.name);
   get(values, "remove_walls", stage.removeWalls);
+  get(values, stage.fields);
   get(values, "drag", stage.drag);
   get(values, "duration", stage.duration);
   get(values, "settled", stage.settledKineticEnergy);
@@ -208,6 +241,7 @@ Parameters store(const StageSpec& stage) {
   Parameters values;
   values.set("name", stage.name);
   values.set("remove_walls", stage.removeWalls);
+  put(values, stage.fields);
   put(values, "drag", stage.drag);
   return values;
 }
@@ -230,6 +264,7 @@ void load(const Parameters& values, EventSpec& event) {
   if (values.has("gravity")) event.gravity = values.vector("gravity");
   get(values, "drag", event.drag);
   get(values, "remove_walls", event.removeWalls);
+  get(values, event.fields);
   get(values, "end_stage", event.endStage);
 }
 
@@ -239,6 +274,7 @@ Parameters store(const EventSpec& event) {
   if (event.gravity) values.set("gravity", *event.gravity);
   put(values, "drag", event.drag);
   values.set("remove_walls", event.removeWalls);
+  put(values, event.fields);
   values.set("end_stage", event.endStage);
   return values;
 }
@@ -286,6 +322,7 @@ void load(const Parameters& values, AccuracySpec& accuracy) {
   accuracy.fastArithmetic = arithmetic == "fast";
   get(values, "skin", accuracy.skin);
   get(values, "maximum_overlap", accuracy.maximumOverlap);
+  get(values, "maximum_travel", accuracy.maximumTravel);
 }
 
 Parameters store(const AccuracySpec& accuracy) {
@@ -297,6 +334,7 @@ Parameters store(const AccuracySpec& accuracy) {
   values.set("arithmetic", std::string(accuracy.fastArithmetic ? "fast" : "portable"));
   values.set("skin", accuracy.skin);
   values.set("maximum_overlap", accuracy.maximumOverlap);
+  values.set("maximum_travel", accuracy.maximumTravel);
   return values;
 }
 

@@ -17,6 +17,7 @@ const Keys& materialKeys();
 const Keys& contactKeys(); ///< beside the laws
 const Keys& speciesKeys(); ///< beside `size`
 const Keys& wallKeys();    ///< beside kind and its parameters
+const Keys& fieldKeys();   ///< beside kind and its parameters
 const Keys& outletKeys();  ///< beside `recycle`
 const Keys& recycleKeys();
 const Keys& fillKeys();  ///< beside kind, mixture and the kind's parameters
@@ -36,6 +37,7 @@ void load(const Parameters& values, Material& material);
 void load(const Parameters& values, ContactSpec& contact);
 void load(const Parameters& values, Species& species);
 void load(const Parameters& values, WallSpec& wall);
+void load(const Parameters& values, FieldSpec& field);
 void load(const Parameters& values, OutletSpec& outlet);
 void load(const Parameters& values, RecycleSpec& recycle);
 void load(const Parameters& values, FillSpec& fill);
@@ -54,6 +56,7 @@ Parameters store(const Material& material);
 Parameters store(const ContactSpec& contact);
 Parameters store(const Species& species);
 Parameters store(const WallSpec& wall);
+Parameters store(const FieldSpec& field);
 Parameters store(const OutletSpec& outlet);
 Parameters store(const RecycleSpec& recycle);
 Parameters store(const FillSpec& fill);

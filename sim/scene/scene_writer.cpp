@@ -2,6 +2,7 @@
 #include "sim/scene/scene_writer.h"
 
 #include "sim/contact/law_registry.h"
+#include "sim/fields/field_registry.h"
 #include "sim/grains/fill_registry.h"
 #include "sim/grains/size_distribution.h"
 #include "sim/scene/probe_registry.h"
@@ -151,6 +152,10 @@ public:
       if (!w.motion.kind.empty())
         all.push_back("motion = " + inlineTable(lines("kind", motionKinds(), w.motion)));
       emit("[[wall]]", all);
+    }
+    for (const auto& f : scene_.fields) {
+      Lines all = lines(fieldKeys(), store(f));
+      emit("[[field]]", append(all, lines("kind", fieldKinds(), f.what)));
     }
     for (const auto& o : scene_.outlets) {
       Lines all = lines(outletKeys(), store(o));

@@ -8,6 +8,10 @@
 
 namespace sandglass {
 
+void Solver::setField(const std::string& name, double) {
+  throw InputError(fmt::format("this solver has no fields, so none can be set ('{}')", name));
+}
+
 std::vector<std::string> solverRefusals(const Scene& scene) {
   std::vector<std::string> refusals;
   const auto attempt = [&](auto&& action) {

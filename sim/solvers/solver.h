@@ -48,6 +48,9 @@ public:
   virtual void setDrag(double rate) = 0;
   /// From now on grains fall so; the velocities of this instant stay. Part of what save() gives.
   virtual void setGravity(const Vec3& gravity) = 0; ///< [m/s^2]
+  /// From now on a field of the scene is `factor` times as strong as the scene says; 0: off. The velocities
+  /// of this instant stay. Part of what save() gives.
+  virtual void setField(const std::string& name, double factor);
   /// A stage of the scene begins now; for walls whose motion waits for one.
   virtual void beginStage(const std::string& name) {}
 
@@ -73,8 +76,8 @@ public:
   virtual const Flow& flow() const = 0;
   virtual std::vector<GrainSeed> present() const = 0; ///< ascending ids
   virtual std::vector<FrameWall> walls() const = 0;   ///< with forces now
-  /// What moving walls and grains that are frozen in a motion have done to the grains since the run began
-  /// [J].
+  /// What moving walls, grains that are frozen in a motion and fields have done to the grains since the run
+  /// began [J].
   virtual double wallWork() const { return 0.0; }
 
   /// Everything that decides the future, bit for bit: a named set of byte arrays.

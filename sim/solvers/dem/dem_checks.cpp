@@ -27,11 +27,12 @@ void DemSolver::reportBadMotion() const {
           "at {:.6g} s (step {}) the position or velocity of grain {} is not a number; the step is too "
           "long or a force has no bound: lower time_step",
           time(), step_, grains_.id[i]));
-    if (v.norm() * dt_ > 0.25 * smallestRadius_)
+    if (v.norm() * dt_ > scene_.accuracy.maximumTravel * smallestRadius_)
       throw RunError(fmt::format(
-          "at {:.6g} s (step {}) grain {} moves {:.3g} m in one step, more than a quarter of the smallest "
-          "radius ({:.3g} m), and could jump over a contact; lower time_step",
-          time(), step_, grains_.id[i], v.norm() * dt_, smallestRadius_));
+          "at {:.6g} s (step {}) grain {} moves {:.3g} m in one step, more than {:g} times the smallest "
+          "radius "
+          "({:.3g} m, accuracy.maximum_travel), and could jump over a contact; lower time_step",
+          time(), step_, grains_.id[i], v.norm() * dt_, scene_.accuracy.maximumTravel, smallestRadius_));
   }
   throw RunError(
       fmt::format("at {:.6g} s (step {}) the motion of a grain went out of bounds", time(), step_));

@@ -192,7 +192,7 @@ double DemSolver::wallWork() const {
   double sum = frozen_.any() ? frozen_.workWith(full.force, full.torque, step_ == 0 ? 0.0 : dt_) : 0.0;
   for (const WallTally& tally : full.tallies)
     sum += tally.work;
-  return sum;
+  return sum + fields_.work();
 }
 
 namespace {
@@ -250,6 +250,10 @@ Solver::State DemSolver::save() {
     walls.push_back({w.active, w.marks, w.allowance, w.listedTime, w.tally});
   put(s, "walls.state", walls);
   if (frozen_.any()) put(s, "frozen", frozen_.state());
+  if (fields_.any()) {
+    put(s, "fields.factors", fields_.factors());
+    put(s, "fields.work", fields_.workState());
+  }
   put(s, "lives", lives_.lives());
   put(s, "entries", lives_.entries());
   put(s, "gravity", std::vector<double>{gravity_.x(), gravity_.y(), gravity_.z()});
@@ -297,6 +301,7 @@ void DemSolver::load(const State& s) {
   list_.build(grains_, laws_.range(), parallel_);
   if (across_.used()) across_.build(grains_, laws_.range(), list_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
+  if (fields_.any()) fields_.list(grains_, list_, parallel_);
   grains_.setRecords(std::move(records));
   loop_.bind();
   const auto restore = [&](const char* name, auto& array) {
@@ -318,6 +323,13 @@ void DemSolver::load(const State& s) {
     std::vector<double> frozen;
     get(s, "frozen", frozen);
     frozen_.setState(frozen);
+  }
+  if (fields_.any()) {
+    std::vector<double> factors, work;
+    get(s, "fields.factors", factors);
+    get(s, "fields.work", work);
+    fields_.setFactors(factors);
+    fields_.setWorkState(work);
   }
   get(s, "lives", lives_.lives());
   get(s, "entries", lives_.entries());

@@ -43,8 +43,8 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
                      const std::vector<std::shared_ptr<const Law>>& added)
     : scene_(scene), laws_(stackWith(scene, added)), parallel_(options.threads),
       list_(scene.domain, laws_.historySize(), laws_.outputQuads(), laws_.hasEvents()), pairForces_(laws_),
-      wallContacts_(laws_), across_(laws_, scene.sector()),
-      loop_(grains_, list_, pairForces_, wallContacts_, across_, parallel_), frozen_(scene),
+      wallContacts_(laws_), across_(laws_, scene.sector()), fields_(scene),
+      loop_(grains_, list_, pairForces_, wallContacts_, across_, fields_, parallel_), frozen_(scene),
       gravity_(scene.gravity), lives_(scene) {
   if (across_.used() && laws_.hasEvents())
     throw InputError("a wedge cannot be simulated with laws that move quantities from grain to grain across "
@@ -72,12 +72,13 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
   walls_ = makeSolverWalls(scene);
   atFullStep_.tallies.resize(walls_.size());
   wallRadius_ = farthestReach(walls_, scene.domain) + meanDiameter_ + skin_;
-  if (const double fastest = fastestWall(scene); fastest * dt_ > 0.25 * smallestRadius_)
-    throw InputError(
-        fmt::format("a wall moves at up to {:.3g} m/s, {:.3g} m in a step of {:.3g} s, more than a quarter "
-                    "of the smallest "
-                    "radius ({:.3g} m), and could jump over a grain; slow it down or lower time_step",
-                    fastest, fastest * dt_, dt_, smallestRadius_));
+  if (const double fastest = fastestWall(scene);
+      fastest * dt_ > scene.accuracy.maximumTravel * smallestRadius_)
+    throw InputError(fmt::format(
+        "a wall moves at up to {:.3g} m/s, {:.3g} m in a step of {:.3g} s, more than {:g} times "
+        "the smallest radius ({:.3g} m, accuracy.maximum_travel), and could jump over a grain; slow "
+        "it down or lower time_step",
+        fastest, fastest * dt_, dt_, scene.accuracy.maximumTravel, smallestRadius_));
 }
 
 void DemSolver::add(const std::vector<GrainSeed>& seeds) {
@@ -143,6 +144,27 @@ void DemSolver::setGravity(const Vec3& gravity) {
   atFullStep_.valid = false;
 }
 
+void DemSolver::setField(const std::string& name, double factor) {
+  prepare();
+  // As for gravity: velocities of the full step stay when the half kick that leads there becomes another one.
+  std::vector<Quad> before, torqueBefore, after, torqueAfter;
+  evaluate(before, torqueBefore);
+  fields_.setFactor(name, factor);
+  evaluate(after, torqueAfter);
+  for (std::size_t i = 0; i < grains_.size(); ++i) {
+    Quad& v = grains_.motion[i];
+    const Vec3 kick = 0.5 * dt_ * v.w * (before[i].vec() - after[i].vec());
+    v = {v.x + kick.x(), v.y + kick.y(), v.z + kick.z(), v.w};
+    if (!grains_.turning) continue;
+    Quad& u = grains_.roll[i];
+    const Vec3 turn =
+        0.5 * dt_ * grains_.place[i].w / grains_.inertia(i) * (torqueBefore[i].vec() - torqueAfter[i].vec());
+    u = {u.x + turn.x(), u.y + turn.y(), u.z + turn.z(), u.w};
+  }
+  frozen_.hold(grains_);
+  atFullStep_.valid = false;
+}
+
 void DemSolver::beginStage(const std::string& name) {
   markStage(walls_, name, time());
   placeWalls(walls_, time(), 0.0);
@@ -171,6 +193,7 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
   if (across_.used()) across_.build(grains_, laws_.range(), list_);
   allowTravel(walls_, dt_, skin_, meanDiameter_, wallRadius_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
+  if (fields_.any()) fields_.list(grains_, list_, parallel_);
   loop_.bind();
   frozen_.capture(grains_);
   loop_.watch(frozen_.moving());
@@ -210,7 +233,8 @@ void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) co
   placeWalls(walls_, time(), dt_);
   wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
   across_.step(grains_, dt_, parallel_, deepest);
-  loop_.forces(dt_, force, torque);
+  if (fields_.any()) fields_.look(grains_, list_, time(), parallel_);
+  loop_.forces(dt_, gravity_, force, torque);
   wallContacts_.historyArray() = history;
   wallContacts_.featureArray() = feature;
   across_.historyArray() = across;
@@ -292,7 +316,9 @@ void DemSolver::stepOnce() {
   wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
   across_.step(grains_, dt_, parallel_, deepest);
   wallContacts_.tally(grains_, walls_, step_ == 0 ? 0.0 : dt_); // the work since the step before
-  const auto report = loop_.step(dt_, gravity_, 0.25 * smallestRadius_ / dt_, events, deepest);
+  if (fields_.any()) fields_.look(grains_, list_, time(), parallel_);
+  const auto report =
+      loop_.step(dt_, gravity_, scene_.accuracy.maximumTravel * smallestRadius_ / dt_, events, deepest);
   checkOverlap(deepest);
   if (report.bad) reportBadMotion();
   if (!events.empty()) applyEvents(events);

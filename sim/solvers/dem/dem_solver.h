@@ -10,6 +10,7 @@
 #include "sim/contact/pair_list.h"
 #include "sim/contact/sector_contacts.h"
 #include "sim/contact/wall_contacts.h"
+#include "sim/fields/field_stack.h"
 #include "sim/grains/grain_lives.h"
 #include "sim/solvers/dem/frozen_grains.h"
 #include "sim/solvers/dem/particle_loop.h"
@@ -32,6 +33,7 @@ public:
   void removeWall(const std::string& name) override;
   void setDrag(double rate) override { drag_ = rate; }
   void setGravity(const Vec3& gravity) override;
+  void setField(const std::string& name, double factor) override;
   void beginStage(const std::string& name) override;
   void advance(std::int64_t steps) override;
 
@@ -69,7 +71,7 @@ private:
   /// Velocities at the full step, and the forces there.
   struct FullStep {
     bool valid = false;
-    std::vector<Quad> force, torque; ///< of contacts
+    std::vector<Quad> force, torque; ///< of contacts and fields
     std::vector<Vec3> velocity, spin;
     std::vector<WallTally> tallies; ///< of the walls, with what the forces of this instant add
   };
@@ -100,6 +102,7 @@ private:
   PairForces pairForces_;
   mutable WallContacts wallContacts_;
   mutable SectorContacts across_; ///< the faces of a wedge
+  mutable FieldStack fields_;
   mutable ParticleLoop loop_;
   FrozenGrains frozen_;
   mutable FullStep atFullStep_;

@@ -3,6 +3,7 @@
 
 #include "sim/base/random.h"
 #include "sim/contact/head_on.h"
+#include "sim/fields/field_registry.h"
 #include "sim/grains/seeding.h"
 #include "sim/solvers/dem/dem_solver.h"
 #include "sim/solvers/dem/step_rule.h"
@@ -31,6 +32,7 @@ Trial tryOut(const Scene& scene) {
   block.walls.clear();
   block.probes.clear();
   block.outlets.clear();
+  block.fields.clear();
   block.gravity = Vec3::Zero();
   block.output = {};
   block.accuracy.maximumOverlap = 1e9;
@@ -89,6 +91,10 @@ Forecast forecast(const Scene& scene) {
        "frozen grains", "a look at each of them a step");
   tell(!scene.walls.empty(), "walls", "paid by the grains that are near one");
   tell(fastestWall(scene) > 0.0, "moving walls", "grains near them are listed a little further out");
+  for (const FieldSpec& field : scene.fields)
+    if (const FieldKind* kind = findField(field.what.kind))
+      f.modelled.push_back(fmt::format("field {}: {}; {}", field.name, kind->description, kind->cost));
+  if (scene.fields.empty()) f.notModelled.push_back("fields: winds, drags, shields");
   tell(!scene.outlets.empty(), "outlets", "one look at each grain every 50 steps");
   const auto anyOutlet = [&](auto&& does) {
     return std::any_of(scene.outlets.begin(), scene.outlets.end(), does);

@@ -104,6 +104,8 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
             [&](std::int64_t g, std::int64_t last, const double* ring) {
               sumGroup(static_cast<int>(c), g, last, ring, sums);
               if (!watched_.empty()) keepWatched(g * group, last, sums);
+              if (fields_.any())
+                fields_.addTo(sums, grains_, g * group, last, dt, gravity, list_.outputQuads() > 2, true);
               Speeds speeds;
               kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt,
                           gravity.data(), speedLimit, speeds);
@@ -142,7 +144,8 @@ void ParticleLoop::watchedForce(std::size_t k, Vec3& force, Vec3& torque) const 
   if (list_.outputQuads() > 2) torque += Vec3(s[8], s[9], s[10]);
 }
 
-void ParticleLoop::forces(double dt, std::vector<Quad>& force, std::vector<Quad>& torque) {
+void ParticleLoop::forces(double dt, const Vec3& gravity, std::vector<Quad>& force,
+                          std::vector<Quad>& torque) {
   force.assign(grains_.size(), {});
   torque.assign(grains_.turning ? grains_.size() : 0, {});
   std::vector<std::uint8_t> live;
@@ -155,6 +158,8 @@ void ParticleLoop::forces(double dt, std::vector<Quad>& force, std::vector<Quad>
       sweep(static_cast<int>(c), dt, true, scratch,
             [&](std::int64_t g, std::int64_t last, const double* ring) {
               sumGroup(static_cast<int>(c), g, last, ring, sums);
+              if (fields_.any())
+                fields_.addTo(sums, grains_, g * group, last, dt, gravity, list_.outputQuads() > 2, false);
               for (std::int64_t i = g * group; i < last; ++i) {
                 const double* s = sums.at[i - g * group];
                 force[i] = {s[0], s[1], s[2], 0.0};

@@ -11,6 +11,7 @@
 #include "sim/contact/pair_forces.h"
 #include "sim/contact/sector_contacts.h"
 #include "sim/contact/wall_contacts.h"
+#include "sim/fields/field_stack.h"
 
 #include <array>
 #include <vector>
@@ -20,8 +21,9 @@ namespace sandglass {
 class ParticleLoop {
 public:
   ParticleLoop(GrainStore& grains, PairList& list, PairForces& pairs, const WallContacts& walls,
-               const SectorContacts& across, Parallel& parallel)
-      : grains_(grains), list_(list), pairs_(pairs), walls_(walls), across_(across), parallel_(parallel) {}
+               const SectorContacts& across, FieldStack& fields, Parallel& parallel)
+      : grains_(grains), list_(list), pairs_(pairs), walls_(walls), across_(across), fields_(fields),
+        parallel_(parallel) {}
 
   /// After a rebuild: grains of a group may move as far as `listed.w` of its first says.
   void bind();
@@ -30,13 +32,13 @@ public:
     bool late = false; ///< some group has moved as far as its list allows
     bool bad = false;  ///< a velocity component reached the limit or is not a number
   };
-  /// One step, with the forces that are in `walls` and `across`.
+  /// One step, with the forces that are in `walls` and `across`, and what `fields` have looked up.
   Report step(double dt, const Vec3& gravity, double speedLimit, std::vector<PairEvent>& events,
               DeepestOverlap& deepest);
 
   /// Forces and torques at the present positions, which the next step of length dt begins with [N, N m], in
   /// storage order; gravity left out. Pair outputs are overwritten, nothing else.
-  void forces(double dt, std::vector<Quad>& force, std::vector<Quad>& torque);
+  void forces(double dt, const Vec3& gravity, std::vector<Quad>& force, std::vector<Quad>& torque);
 
   /// Storage indices, ascending, of grains whose contact forces are to be kept from each step, until the list
   /// is made anew.
@@ -59,6 +61,7 @@ private:
   PairForces& pairs_;
   const WallContacts& walls_;
   const SectorContacts& across_;
+  FieldStack& fields_;
   Parallel& parallel_;
   std::vector<double> moved_, allowed_;
   std::vector<std::int32_t> watched_;

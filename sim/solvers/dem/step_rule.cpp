@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/contact/solver_wall.h"
+#include "sim/fields/field_stack.h"
 #include "sim/grains/seeding.h"
 
 #include <fmt/format.h>
@@ -55,7 +56,8 @@ double impactSpeed(const Scene& scene) {
       if (!scene.domain.periodic[k])
         height += std::abs(g[k]) / g.norm() * (scene.domain.upper[k] - scene.domain.lower[k]);
   if (!std::isfinite(height)) height = 1.0;
-  return std::max({std::sqrt(2.0 * g.norm() * height), 2.0 * fastest, fastestWall(scene), 1e-3});
+  return std::max(
+      {std::sqrt(2.0 * g.norm() * height), 2.0 * fastest, fastestWall(scene), fastestFlow(scene), 1e-3});
 }
 
 StepChoice chooseStep(const Scene& scene, const LawStack& laws) {

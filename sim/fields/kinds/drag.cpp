@@ -1,0 +1,216 @@
+// Drag of a fluid on a grain of diameter D and velocity u relative to the fluid,
+//   F = -g(|u|) u,   g = c1 + c2 |u|,   c1 = 3 pi eta D (Stokes),  c2 = c_d rho pi D^2 / 8,
+// or by Schiller and Naumann (Z. Ver. Dtsch. Ing. 77, 318 (1933)),
+//   g = 3 pi eta D (1 + 0.15 Re^0.687),  Re = rho |u| D / eta,  from Re = 1000 on with c_d = 0.44.
+// Only the part of u along or across an axis may count. The force may fall off with height and be lessened by
+// a shield.
+//
+// The step does not fear light grains in thick fluids: with k = g dt / m and the acceleration a of all other
+// forces, the exact change of velocity for fixed g and a is  (a dt - k u) (1 - e^-k) / k. Here
+//   e^-k ~ 1 / (1 + k + k^2 / 2),  so  (1 - e^-k) / k ~ (1 + k/2) / (1 + k + k^2/2),
+// right to second order for small k, and for large k the velocity goes to that at which forces balance.
+
+#include "sim/base/error.h"
+#include "sim/base/math.h"
+#include "sim/fields/field.h"
+#include "sim/fields/field_kinds.h"
+#include "sim/math/exponential.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace sandglass {
+
+namespace {
+
+class Drag final : public Field {
+public:
+  explicit Drag(const Parameters& p)
+      : strength_(p.number("strength")), decay_(p.number("decay")), reference_(p.number("reference")) {
+    const std::string& law = p.text("law");
+    schillerNaumann_ = law == "schiller_naumann";
+    const bool linear = law == "linear" || law == "both", quadratic = law == "quadratic" || law == "both";
+    const bool fluid = p.has("viscosity") || p.has("density");
+    const auto need = [&](const char* key) {
+      if (!p.has(key)) throw InputError(std::string("a drag with law '") + law + "' needs the key " + key);
+      return p.number(key);
+    };
+    if (schillerNaumann_) {
+      viscosity_ = need("viscosity");
+      density_ = need("density");
+    }
+    if (linear) {
+      const int given = p.has("linear_coefficient") + p.has("area_coefficient") + p.has("viscosity");
+      if (given != 1)
+        throw InputError(
+            "a linear drag needs exactly one of viscosity, linear_coefficient and area_coefficient");
+      linear_ = p.has("viscosity") ? 3.0 * std::numbers::pi * p.number("viscosity")
+                                   : p.number("linear_coefficient", 0.0);
+      area_ = 0.25 * std::numbers::pi * p.number("area_coefficient", 0.0);
+    }
+    if (quadratic) {
+      if (p.has("density") == p.has("quadratic_coefficient"))
+        throw InputError("a quadratic drag needs either density or quadratic_coefficient");
+      quadratic_ = p.has("density")
+                       ? 0.125 * std::numbers::pi * p.number("drag_coefficient") * p.number("density")
+                       : p.number("quadratic_coefficient");
+    }
+    if (!fluid && schillerNaumann_) throw InputError("needs viscosity and density of the fluid");
+    const std::string& acts = p.text("acts");
+    acts_ = acts == "all" ? Acts::all : acts == "across" ? Acts::across : Acts::along;
+    axis_ = unitAxis(p);
+    componentwise_ = p.text("speed") == "componentwise";
+  }
+
+  void apply(FieldBlock& b, double factor) const override {
+    FieldBlock::Column scale;
+    const double strength = factor * strength_;
+    if (decay_ > 0.0) {
+      const double decay = decay_, reference = reference_;
+      const double nx = axis_.x(), ny = axis_.y(), nz = axis_.z();
+      SANDGLASS_GRAINS(i)
+      scale[i] = strength * b.exposure[i] *
+                 exponential(-decay * (nx * b.x[i] + ny * b.y[i] + nz * b.z[i] - reference));
+    } else {
+      SANDGLASS_GRAINS(i) scale[i] = strength * b.exposure[i];
+    }
+    if (componentwise_)
+      act<true>(b, scale);
+    else
+      act<false>(b, scale);
+  }
+
+private:
+  enum class Acts { all, across, along };
+
+  template <bool componentwise> void act(FieldBlock& b, const FieldBlock::Column& scale) const {
+    switch (acts_) {
+    case Acts::all:
+      return act<componentwise, Acts::all>(b, scale);
+    case Acts::across:
+      return act<componentwise, Acts::across>(b, scale);
+    case Acts::along:
+      return act<componentwise, Acts::along>(b, scale);
+    }
+  }
+
+  template <bool componentwise, Acts acts> void act(FieldBlock& b, const FieldBlock::Column& scale) const {
+    const double nx = axis_.x(), ny = axis_.y(), nz = axis_.z(), dt = b.dt;
+    FieldBlock::Column ux, uy, uz, qx, qy, qz; // relative velocity and acceleration, the parts that count
+    SANDGLASS_GRAINS(i) {
+      ux[i] = b.vx[i] - b.flowX[i];
+      uy[i] = b.vy[i] - b.flowY[i];
+      uz[i] = b.vz[i] - b.flowZ[i];
+      qx[i] = b.ax[i];
+      qy[i] = b.ay[i];
+      qz[i] = b.az[i];
+      if constexpr (acts != Acts::all) {
+        const double u = nx * ux[i] + ny * uy[i] + nz * uz[i], q = nx * qx[i] + ny * qy[i] + nz * qz[i];
+        ux[i] = acts == Acts::along ? u * nx : ux[i] - u * nx;
+        uy[i] = acts == Acts::along ? u * ny : uy[i] - u * ny;
+        uz[i] = acts == Acts::along ? u * nz : uz[i] - u * nz;
+        qx[i] = acts == Acts::along ? q * nx : qx[i] - q * nx;
+        qy[i] = acts == Acts::along ? q * ny : qy[i] - q * ny;
+        qz[i] = acts == Acts::along ? q * nz : qz[i] - q * nz;
+      }
+    }
+    if constexpr (componentwise) {
+      FieldBlock::Column g;
+      SANDGLASS_GRAINS(i) g[i] = std::abs(ux[i]);
+      slow(b.ax, qx, ux, g, b, scale, dt);
+      SANDGLASS_GRAINS(i) g[i] = std::abs(uy[i]);
+      slow(b.ay, qy, uy, g, b, scale, dt);
+      SANDGLASS_GRAINS(i) g[i] = std::abs(uz[i]);
+      slow(b.az, qz, uz, g, b, scale, dt);
+    } else {
+      FieldBlock::Column g;
+      SANDGLASS_GRAINS(i) g[i] = std::sqrt(ux[i] * ux[i] + uy[i] * uy[i] + uz[i] * uz[i]);
+      slow(b.ax, qx, ux, g, b, scale, dt);
+      slow(b.ay, qy, uy, g, b, scale, dt);
+      slow(b.az, qz, uz, g, b, scale, dt);
+    }
+  }
+
+  /// Adds the drag to one component of the acceleration; q and u are the parts of it that count.
+  void slow(FieldBlock::Column& a, const FieldBlock::Column& q, const FieldBlock::Column& u,
+            const FieldBlock::Column& speed, const FieldBlock& b, const FieldBlock::Column& scale,
+            double dt) const {
+    if (schillerNaumann_) {
+      const double stokes = 3.0 * std::numbers::pi * viscosity_, perSpeed = density_ / viscosity_,
+                   newton = 0.44 * 0.125 * std::numbers::pi * density_;
+      SANDGLASS_GRAINS(i) {
+        const double D = 2.0 * b.radius[i], re = perSpeed * speed[i] * D;
+        const double positive = re > 1e-300 ? re : 1e-300;
+        const double power = powerOfTwo(0.687 * binaryLogarithm(positive));
+        const double slow = stokes * D * (1.0 + 0.15 * power), fast = newton * D * D * speed[i];
+        add(a[i], q[i], u[i], scale[i] * (re < 1000.0 ? slow : fast), b.inverseMass[i], dt);
+      }
+    } else {
+      const double c1 = linear_, c1area = area_, c2 = quadratic_;
+      SANDGLASS_GRAINS(i) {
+        const double D = 2.0 * b.radius[i];
+        const double g = c1 * D + (c1area + c2 * speed[i]) * (D * D);
+        add(a[i], q[i], u[i], scale[i] * g, b.inverseMass[i], dt);
+      }
+    }
+  }
+
+  [[gnu::always_inline]] static void add(double& a, double q, double u, double g, double inverseMass,
+                                         double dt) {
+    const double rate = g * inverseMass, k = rate * dt;
+    const double inverse = 1.0 / (1.0 + k + 0.5 * k * k);
+    const double share = (1.0 + 0.5 * k) * inverse, rest = 0.5 * k * (1.0 + k) * inverse; // they sum to 1
+    a -= rest * q + share * rate * u;
+  }
+
+  double strength_, decay_, reference_;
+  double linear_ = 0, area_ = 0, quadratic_ = 0; ///< g = linear D + (area + quadratic |u|) D^2
+  double viscosity_ = 0, density_ = 0;           ///< [Pa s], [kg/m^3]
+  bool schillerNaumann_ = false, componentwise_ = false;
+  Acts acts_ = Acts::all;
+  Vec3 axis_;
+};
+
+} // namespace
+
+FieldKind dragField() {
+  const auto choice = [](const char* name, const char* description, const char* fallback,
+                         std::vector<std::string> choices) {
+    ParameterSpec spec{.name = name,
+                       .type = ParameterType::text,
+                       .unit = "1",
+                       .description = description,
+                       .choices = std::move(choices)};
+    if (fallback) spec.fallback = std::string(fallback);
+    return spec;
+  };
+  ParameterSpec axis = vortexAxis();
+  axis.description = "direction for 'acts' and 'decay'";
+  ParameterSpec flows{.name = "flows",
+                      .type = ParameterType::texts,
+                      .unit = "1",
+                      .description = "names of the flows that it feels; all, when left out",
+                      .optional = true};
+  return {
+      "drag",
+      FieldRole::drag,
+      "a force that draws the velocity of a grain to that of the fluid; still air without flows",
+      "some ten operations a grain and step",
+      {choice("law", "how it grows with speed", nullptr, {"linear", "quadratic", "both", "schiller_naumann"}),
+       flows, optionalNumber("viscosity", "Pa*s", "of the fluid", 0, true),
+       optionalNumber("density", "kg/m^3", "of the fluid", 0, true),
+       fieldNumber("drag_coefficient", "1", "of the quadratic part, with 'density'", 0, false, 0.47),
+       optionalNumber("linear_coefficient", "kg/(m*s)", "force over speed and diameter", 0),
+       optionalNumber("area_coefficient", "kg/(m^2*s)", "force over speed and cross-section", 0),
+       optionalNumber("quadratic_coefficient", "kg/m^3", "force over speed and diameter, both squared", 0),
+       choice("acts", "which part of the velocity counts and is changed", "all", {"all", "across", "along"}),
+       axis, fieldNumber("strength", "1", "factor of the force", 0, false, 1.0),
+       heightDecay("rate at which the force falls off along the axis"), heightReference(),
+       choice("speed",
+              "speed in the quadratic part: the magnitude, or each component by itself, which is not the "
+              "same in all directions",
+              "magnitude", {"magnitude", "componentwise"})},
+      [](const Parameters& p) { return std::make_unique<Drag>(p); }};
+}
+
+} // namespace sandglass
