@@ -16,9 +16,10 @@ constexpr std::size_t refreshEvery = 20; ///< frames; a look at a folder costs l
 
 FrameStore::FrameStore(std::filesystem::path path) : path_(std::move(path)) {}
 
-std::shared_ptr<FrameStore> FrameStore::open(const std::filesystem::path& path) {
+std::shared_ptr<FrameStore> FrameStore::open(const std::filesystem::path& path,
+                                             const std::optional<ImportSettings>& settings) {
   auto store = std::make_shared<FrameStore>(path);
-  store->disk_ = openFrames(path);
+  store->disk_ = openFrames(path, settings ? &*settings : nullptr);
   store->onDisk_ = store->disk_->size();
   store->listTimes();
   return store;
@@ -61,6 +62,11 @@ bool FrameStore::refresh() {
 
 void FrameStore::refreshLocked() {
   sinceRefresh_ = 0;
+  if (disk_ && !disk_->complete()) { // a long file: its index grows
+    disk_->refresh();
+    onDisk_ = disk_->size();
+    return listTimes();
+  }
   const bool isFolder = std::filesystem::is_directory(path_ / "frames");
   if (!isFolder) return;
   auto disk = openFrames(path_);
@@ -77,6 +83,16 @@ void FrameStore::refreshLocked() {
   onDisk_ = count;
   memory_.erase(memory_.begin(), memory_.begin() + static_cast<std::ptrdiff_t>(moved));
   listTimes();
+}
+
+bool FrameStore::complete() const {
+  const std::lock_guard lock(mutex_);
+  return !disk_ || disk_->complete();
+}
+
+std::vector<std::string> FrameStore::remarks() const {
+  const std::lock_guard lock(mutex_);
+  return disk_ ? disk_->remarks() : std::vector<std::string>{};
 }
 
 void FrameStore::append(FramePtr frame) {

@@ -2,12 +2,15 @@
 // The saved frames of what is open: those on disk, and those of a run going on that are not in a closed
 // segment yet and so live in memory.
 
+#include "sim/io/import/import_settings.h"
 #include "sim/io/run_folder.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace sandglass::desktop {
@@ -17,8 +20,10 @@ class FrameStore final : public FrameSource {
 public:
   /// Nothing on disk yet: frames will come by append().
   explicit FrameStore(std::filesystem::path path);
-  /// A run folder or one segment. Throws InputError.
-  static std::shared_ptr<FrameStore> open(const std::filesystem::path& path);
+  /// A run folder, one segment, a file of another program or a pattern of such. Settings for foreign files
+  /// are those beside them unless some are given. Throws InputError.
+  static std::shared_ptr<FrameStore> open(const std::filesystem::path& path,
+                                          const std::optional<ImportSettings>& settings = {});
 
   std::size_t size() const override;
   double time(std::size_t index) const override;
@@ -27,8 +32,11 @@ public:
   FramePtr load(std::size_t index) const override;
   std::string name() const override { return path_.string(); }
 
-  /// Looks for closed segments and frees the memory of frames that are in them.
+  /// Looks for further frames of a foreign file, or for closed segments, and frees the memory of frames that
+  /// are in them.
   bool refresh() override;
+  bool complete() const override;
+  std::vector<std::string> remarks() const override;
 
   /// Adds a saved frame of the run; from time to time calls refresh().
   void append(FramePtr frame);

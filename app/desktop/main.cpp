@@ -21,7 +21,7 @@
 namespace {
 
 struct Arguments {
-  std::string path, folder, viewFile, screenshot, size = "1440x900", backend = "auto";
+  std::string path, folder, columns, viewFile, screenshot, size = "1440x900", backend = "auto";
   int threads = 0;
   double at = -1;
   bool run = false, dark = false;
@@ -31,6 +31,9 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("PATH", a.path,
                  "a scene, the folder of a run, a file of frames, a saved picture or session");
   app.add_option("-o,--output", a.folder, "folder of the run (out/<name of the scene>)");
+  app.add_option("--columns", a.columns,
+                 "what columns, units and walls of another program's file are (default: FILE.import.toml or "
+                 "import.toml beside it)");
   app.add_option("--threads", a.threads, "of the simulation; 0: all cores")->check(CLI::NonNegativeNumber);
   app.add_flag("--run", a.run, "start at once");
   app.add_option("--view", a.viewFile, "view file (TOML)");
@@ -74,6 +77,7 @@ int show(const Arguments& a, int argc, char** argv) {
   WindowOptions options;
   options.session.threads = a.threads;
   options.session.folder = a.folder;
+  if (!a.columns.empty()) options.session.import = sandglass::readImportSettings(a.columns);
   options.backend = backendOf(a.backend);
   if (a.screenshot.empty())
     options.settingsFile =

@@ -79,8 +79,7 @@ fs::path newRunFolder(const fs::path& runsFolder, const fs::path& sceneFile) {
   return folder;
 }
 
-Opened openAny(const fs::path& path) {
-  if (!fs::exists(path)) throw InputError(fmt::format("{}: there is no such file or folder", path.string()));
+Opened openAny(const fs::path& path, const std::optional<ImportSettings>& settings) {
   if (fs::is_directory(path)) {
     if (isRunFolder(path)) return openRun(path);
     if (fs::exists(path / "scene.toml")) return openScene(path / "scene.toml");
@@ -95,7 +94,7 @@ Opened openAny(const fs::path& path) {
   if (vis::isPicture(path)) return openPicture(path);
   Opened opened;
   opened.path = path;
-  opened.store = FrameStore::open(path);
+  opened.store = FrameStore::open(path, settings);
   return opened;
 }
 

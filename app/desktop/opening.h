@@ -29,9 +29,10 @@ struct Opened {
   std::optional<std::filesystem::path> beside; ///< the other run of a picture of two
 };
 
-/// A scene, a run folder, a segment of frames, or a picture or film that leads back to its run. Throws
-/// InputError.
-Opened openAny(const std::filesystem::path& path);
+/// A scene, a run folder, a segment of frames, a file of another program or a pattern of such, or a picture
+/// or film that leads back to its run. Settings for foreign files are those beside them unless some are
+/// given. Throws InputError.
+Opened openAny(const std::filesystem::path& path, const std::optional<ImportSettings>& settings = {});
 
 bool hasCheckpoint(const std::filesystem::path& runFolder);
 

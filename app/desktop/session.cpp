@@ -17,7 +17,7 @@ Session::~Session() {
 }
 
 void Session::open(const QString& path) {
-  openBy([path] { return openAny(path.toStdString()); });
+  openBy([path, import = options_.import] { return openAny(path.toStdString(), import); });
 }
 
 void Session::openBranch(const std::filesystem::path& source, std::int64_t step) {
@@ -64,6 +64,27 @@ void Session::openBy(const std::function<Opened()>& read) {
       progress_.reset();
       Q_EMIT opened();
       Q_EMIT stateChanged();
+      lookOn(order);
+    });
+  });
+}
+
+void Session::lookOn(quint64 order) {
+  const auto store = current_.store;
+  pool_.start([this, order, store] {
+    if (!store->complete()) store->refresh();
+    QStringList remarks;
+    const bool over = store->complete();
+    if (over)
+      for (const auto& remark : store->remarks())
+        remarks << QString::fromStdString(remark);
+    QMetaObject::invokeMethod(this, [this, order, over, remarks] {
+      if (order != opening_) return;
+      for (const auto& remark : remarks)
+        Q_EMIT logged(static_cast<int>(LogLevel::warning), remark);
+      if (over) return;
+      Q_EMIT stateChanged();
+      lookOn(order);
     });
   });
 }

@@ -21,6 +21,7 @@ struct SessionOptions {
   std::filesystem::path runsFolder = "out"; ///< new runs go below it, named after their scene
   std::filesystem::path folder;             ///< folder of the next new run; empty: a new one in runsFolder
   int threads = 0;                          ///< of the simulation; 0: all cores
+  std::optional<ImportSettings> import;     ///< for files of other programs; absent: what lies beside them
 };
 
 class Session : public QObject {
@@ -67,6 +68,7 @@ Q_SIGNALS:
 
 private:
   void openBy(const std::function<Opened()>& read);
+  void lookOn(quint64 order); ///< through a long foreign file, piece by piece
   void fetch();
   void ended(bool complete, const QString& fault);
   void retire();
