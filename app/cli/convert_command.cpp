@@ -3,6 +3,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/import_options.h"
 #include "sim/base/error.h"
+#include "sim/io/foreign_export.h"
 #include "sim/io/run_folder.h"
 #include "sim/io/table_export.h"
 
@@ -46,14 +47,18 @@ int execute(const ConvertArguments& arguments) {
   const bool one = !arguments.frame.empty();
   const std::size_t chosen =
       one || form == ".vtp" ? frameNumber(one ? arguments.frame : "last", frames->size(), frames->name()) : 0;
-  if (one && form != ".vtp" && form != ".csv")
-    throw InputError(
-        fmt::format("--frame {}: only .vtp and .csv hold a single frame; leave --frame out for {}",
-                    arguments.frame, form));
+  if (one && (form == ".pvd" || form == ".vtkhdf"))
+    throw InputError(fmt::format(
+        "--frame {}: a single frame goes into .vtp, .csv, .dump or .xyz; leave --frame out for {}",
+        arguments.frame, form));
   if (form == ".vtp")
     exportVtp(*frames->load(chosen), output);
   else if (form == ".csv")
     exportCsv(*frames, chosen, one ? chosen + 1 : frames->size(), output);
+  else if (form == ".dump" || form == ".lammpstrj")
+    exportLammpsDump(*frames, chosen, one ? chosen + 1 : frames->size(), output);
+  else if (form == ".xyz")
+    exportExtendedXyz(*frames, chosen, one ? chosen + 1 : frames->size(), output);
   else if (form == ".pvd")
     exportPvd(*frames, output);
   else if (form == ".vtkhdf") {
@@ -65,7 +70,8 @@ int execute(const ConvertArguments& arguments) {
   } else
     throw InputError(
         fmt::format("{}: the ending '{}' names no form that is written; there are .vtp (one frame), .pvd "
-                    "(all frames as .vtp), .vtkhdf (all frames in one file) and .csv",
+                    "(all frames as .vtp), .vtkhdf (all frames in one file), .csv, .dump (LAMMPS) and .xyz "
+                    "(extended XYZ)",
                     output.string(), form));
   fmt::print("{}: {}\n", output.string(),
              one || form == ".vtp" ? fmt::format("frame {} at {:.6g} s", chosen, frames->time(chosen))
@@ -77,7 +83,8 @@ int execute(const ConvertArguments& arguments) {
 
 void addConvert(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<ConvertArguments>();
-  CLI::App* command = app.add_subcommand("convert", "Write frames as .vtp, .pvd, .csv or one .vtkhdf");
+  CLI::App* command = app.add_subcommand(
+      "convert", "Write frames as .vtp, .pvd, .csv, LAMMPS .dump, extended .xyz or one .vtkhdf");
   command
       ->add_option("RUN", arguments->input,
                    "folder of a run, a .vtkhdf file, a file of another program, or a pattern of them")

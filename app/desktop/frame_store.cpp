@@ -20,6 +20,7 @@ std::shared_ptr<FrameStore> FrameStore::open(const std::filesystem::path& path,
                                              const std::optional<ImportSettings>& settings) {
   auto store = std::make_shared<FrameStore>(path);
   store->disk_ = openFrames(path, settings ? &*settings : nullptr);
+  if (!store->disk_->complete()) store->disk_->refresh(); // short files are known at once
   store->onDisk_ = store->disk_->size();
   store->listTimes();
   return store;

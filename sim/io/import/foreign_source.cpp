@@ -84,7 +84,9 @@ public:
     for (auto& remark : all)
       remark = file_->name() + ": " + remark;
     if (!fault_.empty())
-      all.push_back(fmt::format("{}; the {} whole frames before are kept", fault_, marks_.size()));
+      all.push_back(fault_ + (marks_.size() == 1
+                                  ? "; frame 0 before it is kept"
+                                  : fmt::format("; frames 0 to {} before it are kept", marks_.size() - 1)));
     return all;
   }
 

@@ -36,6 +36,7 @@ public:
     box();
     ids();
     positions();
+    checkPositions();
     species();
     sizes();
     orientations();
@@ -167,6 +168,12 @@ private:
     }
   }
 
+  void checkPositions() {
+    for (std::size_t i = 0; i < frame_.position.size(); ++i)
+      if (!frame_.position[i].allFinite())
+        failAt(i, "found a position that is no finite number in metres; check the units and the box");
+  }
+
   void species() {
     const auto it = named_.find("species");
     if (it == named_.end()) return;
@@ -199,13 +206,23 @@ private:
       largest = std::max(largest, numbers[k]);
     }
     // Types count from 1 in LAMMPS and LIGGGHTS; names keep the file's number.
+    nameSpecies(numbers);
     const bool fromOne = std::find(numbers.begin(), numbers.end(), 0.0) == numbers.end() && !numbers.empty();
     for (int s = fromOne ? 1 : 0; s <= largest; ++s)
-      frame_.speciesNames.push_back(std::to_string(s));
+      frame_.speciesNames.push_back(elements_.contains(s) ? elements_[s] : std::to_string(s));
     auto& values = frame_.scalars[quantity::species] = numbers;
     if (fromOne)
       for (double& value : values)
         value -= 1;
+  }
+
+  /// Words beside the numbers (LAMMPS: element beside type) name them.
+  void nameSpecies(const std::vector<double>& numbers) {
+    const auto it = named_.find("element");
+    if (it == named_.end() || it->second->words.empty()) return;
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      elements_.try_emplace(static_cast<int>(numbers[k]),
+                            it->second->words[static_cast<std::size_t>(it->second->numbers[k])]);
   }
 
   void sizes() {
@@ -230,11 +247,18 @@ private:
       if (!(numbers[k] > 0))
         failAt(k, fmt::format("found the {} {}, but a size is above 0", what, numbers[k]));
     }
+    if (fromShapes && same(radius)) return;
     if (fromShapes)
       frame_.scalars["file_radius"] = std::move(radius);
     else
       radius_ = std::move(radius);
     sized_ = true;
+  }
+  bool same(const std::vector<double>& radius) const {
+    constexpr double rounding = 1e-9;
+    for (std::size_t k = 0; k < radius.size(); ++k)
+      if (std::abs(radius[k] - radius_[k]) > rounding * radius_[k]) return false;
+    return true;
   }
   void suppliedRadii() {
     if (!settings_.radiusOf.empty()) {
@@ -368,10 +392,15 @@ private:
       const double period = d.upper[k] - d.lower[k];
       if (d.periodic[axis]) {
         if (!(period > 0)) fail(fmt::format("its box repeats along {} but has no extent there", "xyz"[k]));
-        for (auto& p : frame_.position) { // into the box: dumps may lag behind, or be unwrapped
-          const double shift = std::floor((p[k] - d.lower[k]) / period);
-          if (shift != 0) p[k] -= shift * period;
-          if (p[k] >= d.upper[k]) p[k] = d.lower[k];
+        constexpr double mostPeriods = 1e9; // farther away the place in the box is rounding
+        for (std::size_t i = 0; i < frame_.position.size(); ++i) { // dumps may lag behind, or be unwrapped
+          double& p = frame_.position[i][k];
+          const double shift = std::floor((p - d.lower[k]) / period);
+          if (!(std::abs(shift) < mostPeriods))
+            failAt(i, fmt::format("found a grain at {} along {}, farther than {} periods from its box", p,
+                                  "xyz"[k], mostPeriods));
+          if (shift != 0) p -= shift * period;
+          if (!(p >= d.lower[k] && p < d.upper[k])) p = d.lower[k];
         }
       } else if (!box_ && !x.empty()) {
         d.lower[k] = d.upper[k] = x[0][k];
@@ -421,6 +450,7 @@ private:
   Frame frame_;
   std::optional<Domain> box_;
   std::map<std::string, const RawColumn*> named_;
+  std::map<int, std::string> elements_; ///< names of species by number
   std::vector<double> radius_;
   bool sized_ = false; ///< radius_ is known, if only of no grain
 };

@@ -36,6 +36,12 @@ const ReaderKind& readerFor(const ImportFile& file) {
   if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff"))
     throw InputError(
         fmt::format("{}: byte 0: the file is UTF-16 text; save it as UTF-8 or ASCII", file.name()));
+  if (head.find('\n') == std::string::npos && head.find('\r') != std::string::npos &&
+      head.find('\0') == std::string::npos)
+    throw InputError(
+        fmt::format("{}: byte {}: the lines end in carriage returns alone; save the file with the "
+                    "line ends of Linux or Windows",
+                    file.name(), head.find('\r')));
   if (head.starts_with("\xef\xbb\xbf")) head.erase(0, 3);
   for (const auto& kind : kinds())
     if (kind.recognises(head)) return kind;
@@ -43,11 +49,6 @@ const ReaderKind& readerFor(const ImportFile& file) {
   for (const auto& kind : kinds())
     due += (due.empty() ? "" : "; ") + kind.expected;
   const std::string_view first = std::string_view(head).substr(0, head.find_first_of("\r\n"));
-  if (head.find('\n') == std::string::npos && head.find('\r') != std::string::npos)
-    throw InputError(
-        fmt::format("{}: byte {}: the lines end in carriage returns alone; save the file with the "
-                    "line ends of Linux or Windows",
-                    file.name(), head.find('\r')));
   throw InputError(fmt::format("{}: byte 0: found {}, which begins none of the forms that can be read: {}",
                                file.name(), shownText(first), due));
 }
