@@ -90,18 +90,24 @@ std::vector<std::byte> Statement::bytes(int column) const {
 }
 
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
-  const int flags = mode == Mode::read    ? SQLITE_OPEN_READONLY
-                    : mode == Mode::write ? SQLITE_OPEN_READWRITE
-                                          : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  // A reader may have to undo what a kill left half done: SQLite needs to write for that, and falls back to
+  // reading alone where the file is protected.
+  const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
     const std::string why = handle_ ? sqlite3_errmsg(handle_) : "no memory";
     sqlite3_close(handle_);
     throw InputError(fmt::format("{}: the table cannot be opened: {}", file.string(), why));
   }
   sqlite3_busy_timeout(handle_, 60'000); // [ms] another process may be writing a run
-  // A rollback journal, not a write-ahead log: that one needs memory shared between processes, which network
-  // file systems do not have. FULL: what is committed survives a power cut.
-  if (mode != Mode::read) execute("PRAGMA journal_mode = TRUNCATE; PRAGMA synchronous = FULL");
+  try {
+    // A rollback journal, not a write-ahead log: that one needs memory shared between processes, which
+    // network file systems do not have. FULL: what is committed survives a power cut.
+    execute(mode == Mode::read ? "PRAGMA query_only = 1"
+                               : "PRAGMA journal_mode = TRUNCATE; PRAGMA synchronous = FULL");
+  } catch (...) {
+    sqlite3_close(handle_);
+    throw;
+  }
 }
 
 Database::~Database() {

@@ -14,7 +14,7 @@ namespace {
 
 /// 0 for the ends of a row of halvings, 1 for what lies between them, ...
 int depthOf(std::size_t index, std::size_t count) {
-  const int most = std::bit_width(count);
+  const int most = std::bit_width(count - 1);
   return index == 0 ? 0 : most - std::countr_zero(index);
 }
 

@@ -69,6 +69,7 @@ struct SweepPlan {
   double refineDifference = 0;    ///< of a column of numbers: what is still alike
   double sampleInterval = 0;      ///< [s] between the frames that are classified; 0: the scene's frames
   std::string states = "auto";    ///< "auto", "vortex", "none"
+  Parameters thresholds;          ///< [thresholds]: knobs of the analysis vortex_states, all of them
   bool stateMap = false;          ///< shares of solid, liquid and gas at the end, beside the states
 };
 

@@ -1,6 +1,7 @@
 // SWEEP.toml, read strictly.
 
 #include "analysis/sweep/sweep_plan.h"
+#include "analysis/vortex/vortex_knobs.h"
 #include "sim/base/error.h"
 #include "sim/scene/table_reader.h"
 #include "sim/scene/units.h"
@@ -105,6 +106,11 @@ public:
     for (const auto& [table, path] : top_.subtables("derived"))
       readDerived(*table, path);
     if (const ValueTable* table = top_.subtable("refine")) readRefine(*table);
+    static const ValueTable none;
+    const ValueTable* thresholds = top_.subtable("thresholds");
+    TableReader in(thresholds ? *thresholds : none, "thresholds", faults_);
+    in.read(vortexKnobs(), plan_.thresholds);
+    in.reportUnknown();
     top_.reportUnknown();
     check();
     return std::move(plan_);

@@ -5,6 +5,7 @@
 #include "analysis/series_data.h"
 #include "analysis/state_map.h"
 #include "analysis/sweep/vortex_columns.h"
+#include "analysis/vortex/vortex_knobs.h"
 #include "sim/base/error.h"
 #include "sim/io/series.h"
 #include "sim/run/run.h"
@@ -40,15 +41,9 @@ std::string unitOfProbe(const std::string& kind, const std::string& value) {
 class Collector {
 public:
   Collector(const SweepPlan& plan, const Scene& scene) : plan_(plan), scene_(scene) {
-    if (tellsVortex(plan, scene)) {
-      const auto tank = tankOf(scene);
-      if (!tank)
-        throw InputError(
-            fmt::format("{}: the sweep tells the states of a vortex, but the scene has no upright "
-                        "cylinder wall for the tank",
-                        scene.file));
-      vortex_.emplace(*tank, VortexGrainThresholds{}, factsOf(scene).grainDensity);
-    }
+    if (!tellsVortex(plan, scene)) return;
+    const RunFacts facts = factsOf(scene);
+    vortex_.emplace(tankOf(plan.thresholds, facts), grainThresholdsOf(plan.thresholds), facts.grainDensity);
   }
 
   void frame(const FramePtr& frame) {
@@ -78,9 +73,9 @@ public:
     set("mass_discharged", "kg", "that left", summary.flow.massDischarged);
     probes(out);
     if (vortex_) {
-      for (auto& column : vortexColumns(*vortex_, *last_))
+      for (auto& column : vortexColumns(*vortex_, *last_, rulesOf(plan_.thresholds)))
         out.results.push_back(std::move(column));
-      for (auto& curve : vortexCurves(*vortex_))
+      for (auto& curve : vortexCurves(*vortex_, rulesOf(plan_.thresholds)))
         out.curves.push_back(thinned(std::move(curve), curvePoints));
     }
     if (plan_.stateMap) stateMap(out);

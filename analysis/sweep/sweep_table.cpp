@@ -196,10 +196,8 @@ SweepTable::SweepTable(const fs::path& folder, Access access) {
   impl_ =
       std::make_unique<Impl>(file, access == Access::write ? Database::Mode::write : Database::Mode::read);
   std::string version;
-  try {
+  if (Statement(impl_->database, "SELECT 1 FROM sqlite_master WHERE name = 'info'").step())
     version = impl_->info("form");
-  } catch (const RunError&) { // some other database
-  }
   if (version != form) throw InputError(fmt::format("{}: this is not the table of a sweep", file.string()));
   impl_->load();
   const fs::path scene = impl_->info("scene_file");

@@ -9,7 +9,7 @@
 namespace sandglass::analysis {
 
 std::vector<std::pair<SweepColumn, SweepValue>> vortexColumns(const VortexMeasures& measures,
-                                                              const Frame& last) {
+                                                              const Frame& last, const VortexRules& rules) {
   std::vector<std::pair<SweepColumn, SweepValue>> all;
   const auto number = [&](const char* name, const char* unit, const char* description, double value) {
     all.emplace_back(SweepColumn{name, unit, SweepRole::result, false, description}, value);
@@ -17,9 +17,13 @@ std::vector<std::pair<SweepColumn, SweepValue>> vortexColumns(const VortexMeasur
   const auto text = [&](const char* name, const char* description, const std::string& value) {
     all.emplace_back(SweepColumn{name, "", SweepRole::result, true, description}, value);
   };
-  const VortexVerdict own = vortexVerdict(measures, ownVortexRules()),
-                      byText = vortexVerdict(measures, textVortexRules()),
-                      listed = vortexVerdict(measures, listedVortexRules());
+  const auto limited = [&](VortexRules source) {
+    source.heightLimit = rules.heightLimit;
+    return source;
+  };
+  const VortexVerdict own = vortexVerdict(measures, rules),
+                      byText = vortexVerdict(measures, limited(textVortexRules())),
+                      listed = vortexVerdict(measures, limited(listedVortexRules()));
   text("state", "of the bed, by our rules", nameOf(own.state));
   number("state_start", "s", "since when without break", own.start);
   number("confidence", "", "share of thresholds moved by a fifth that give the same state", own.confidence);
@@ -67,8 +71,8 @@ std::vector<std::pair<SweepColumn, SweepValue>> vortexColumns(const VortexMeasur
   return all;
 }
 
-std::vector<Curve> vortexCurves(const VortexMeasures& measures) {
-  std::vector<Curve> curves = vortexResults(measures, ownVortexRules()).curves;
+std::vector<Curve> vortexCurves(const VortexMeasures& measures, const VortexRules& rules) {
+  std::vector<Curve> curves = vortexResults(measures, rules).curves;
   for (auto& curve : curves)
     if (curve.name == "vortex_surface") curve.series.resize(1);
   return curves;

@@ -43,7 +43,7 @@ struct VortexRules {
   bool spoutsApart = false;  ///< text: a large spout begins where a small one ends
   double settleWindow = 0;   ///< frames (source) or seconds (own), like all windows
   double settleDrift = 0;    ///< greatest change of energy that is settled
-  double heightLimit = 0;    ///< [m] above the floor that no centre reaches; 0: the tank's top
+  double heightLimit = 0; ///< [m] above the floor, that no centre reaches; 0: the tank's top, at most 20/3 R
   double fluidWindow = 0;
   double fluidShare = 0.9;    ///< of the frames
   double fluidViolations = 1; ///< bins that may fail to rise

@@ -30,7 +30,10 @@ public:
     const double core = rules.pinnedAtWall
                             ? tank.radius - rules.pinnedCore * r
                             : std::max(rules.pinnedCore * r, rules.pinnedCoreShare * tank.radius);
-    const double highest = rules.heightLimit > 0 ? tank.floor + rules.heightLimit : tank.top;
+    // The source's tank is 20/3 of its radius high; walls may be drawn higher to keep what flies.
+    const double highest =
+        tank.floor + (rules.heightLimit > 0 ? rules.heightLimit
+                                            : std::min(tank.top - tank.floor, 20.0 / 3.0 * tank.radius));
     least_ = rules.spoutLeast < 1 ? rules.spoutLeast * n : rules.spoutLeast;
     small_ = rules.spoutSmall * n;
     large_ = rules.spoutLarge * n;
