@@ -17,6 +17,8 @@ struct Axis {
 struct Series {
   std::string name;
   std::vector<double> x, y, error;
+  bool scatter = false; ///< points with no line between them
+  bool ring = false;    ///< of a scatter: drawn around the points of others
 };
 
 /// A vertical or horizontal mark worth drawing: a first minimum, a fit's range, a reference value.

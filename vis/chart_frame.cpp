@@ -102,17 +102,20 @@ bool ChartFrame::Paint(vtkContext2D* painter) {
 }
 
 void ChartFrame::paintKey(vtkContext2D* painter, float y) const {
-  const float s = chartScale(width, height), sample = 30 * s;
+  const float s = chartScale(width, height);
   float x = std::round(margin * s);
   for (std::size_t k = 0; k < curve.series.size(); ++k) {
     const SeriesStyle style = styleOf(curve.series[k], k);
+    const bool scatter = curve.series[k].scatter;
+    if (!scatter && curve.series[k].x.empty()) continue;
+    const float sample = (scatter ? 10 : 30) * s;
     painter->GetPen()->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
     painter->GetPen()->SetLineType(style.line);
     painter->GetPen()->SetWidth(2 * s);
-    painter->DrawLine(x, y, x + sample, y);
+    if (!scatter) painter->DrawLine(x, y, x + sample, y);
     if (style.marker != vtkPlotPoints::NONE) {
       float middle[] = {x + sample / 2, y};
-      painter->GetPen()->SetWidth(7 * s);
+      painter->GetPen()->SetWidth(style.size * s);
       painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
       painter->GetBrush()->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
       painter->DrawMarkers(style.marker, false, middle, 1);

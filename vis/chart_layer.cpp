@@ -14,6 +14,7 @@
 #include <vtkPen.h>
 #include <vtkPlotArea.h>
 #include <vtkPlotLine.h>
+#include <vtkPlotPoints.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
@@ -88,15 +89,21 @@ void addBars(vtkChartXY* chart, const Points& p, const Rgb& c, double cap, float
   chart->AddPlot(bars);
 }
 
+/// VTK draws no line through a single point.
 void addLine(vtkChartXY* chart, const Points& p, const SeriesStyle& style, float s) {
-  vtkNew<vtkPlotLine> line;
-  line->SetInputData(table({p.x, p.y}), 0, 1);
-  line->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
-  line->SetWidth((style.line == vtkPen::SOLID_LINE ? 2.0F : 2.5F) * s); // broken lines are paler
-  line->GetPen()->SetLineType(style.line);
-  line->SetMarkerStyle(style.marker);
-  line->SetMarkerSize(7 * s);
-  chart->AddPlot(line);
+  const bool single = style.line == vtkPen::NO_PEN || p.x.size() < 2;
+  vtkSmartPointer<vtkPlotPoints> plot;
+  if (single)
+    plot = vtkSmartPointer<vtkPlotPoints>::New();
+  else
+    plot = vtkSmartPointer<vtkPlotLine>::New();
+  plot->SetInputData(table({p.x, p.y}), 0, 1);
+  plot->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
+  plot->SetWidth((style.line == vtkPen::SOLID_LINE ? 2.0F : 2.5F) * s); // broken lines are paler
+  if (!single) plot->GetPen()->SetLineType(style.line);
+  plot->SetMarkerStyle(style.marker);
+  plot->SetMarkerSize(style.size * s);
+  chart->AddPlot(plot);
 }
 
 /// Returns the axis' title; ChartFrame writes it where it meets no label.
@@ -154,8 +161,10 @@ void ChartLayer::show(const analysis::Curve& curve, int width, int height) {
       addBand(chart, points[k], styleOf(curve.series[k], k).colour);
     else if (hasError(points[k]))
       addBars(chart, points[k], styleOf(curve.series[k], k).colour, cap, 1.4F * s);
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (!points[k].x.empty()) addLine(chart, points[k], styleOf(curve.series[k], k), s);
+  for (const bool ring : {true, false}) // rings are discs under the points
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (!points[k].x.empty() && curve.series[k].ring == ring)
+        addLine(chart, points[k], styleOf(curve.series[k], k), s);
 
   const ChartMargins margins = frame->margins();
   chart->SetAutoSize(false);

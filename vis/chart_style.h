@@ -11,8 +11,11 @@ struct SeriesStyle {
   Rgb colour;
   int line = 0;   ///< of vtkPen
   int marker = 0; ///< of vtkPlotPoints; 0: none
+  float size = 7; ///< of markers
 };
 
+/// Scattered series stand behind one that is a line, which may be empty: the second series of a chart is the
+/// first kind of point.
 SeriesStyle styleOf(const analysis::Series& series, std::size_t index);
 
 /// Series of so few points show each of them.

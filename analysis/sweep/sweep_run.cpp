@@ -151,7 +151,10 @@ private:
 } // namespace
 
 bool tellsVortex(const SweepPlan& plan, const Scene& scene) {
-  return plan.states == "vortex";
+  if (plan.states != "auto") return plan.states == "vortex";
+  return tankOf(scene) && std::any_of(scene.fields.begin(), scene.fields.end(), [](const FieldSpec& field) {
+           return field.what.kind.ends_with("_vortex");
+         });
 }
 
 Curve thinned(Curve curve, std::size_t most) {

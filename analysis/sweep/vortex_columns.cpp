@@ -36,7 +36,7 @@ std::vector<std::pair<SweepColumn, SweepValue>> vortexColumns(const VortexMeasur
   number("listed_settle_time", "s", "when the bed had settled, by the listing", listed.settled);
 
   const VortexTank& tank = measures.tank();
-  const double rotation = bedRotation(measures);
+  const double rotation = std::abs(bedRotation(measures));
   const double critical =
       criticalRotation(static_cast<double>(measures.grains()), measures.radius(), tank.radius, tank.gravity);
   number("rotation", "rad/s", "of the bed, mean of the last 1000 frames", rotation);

@@ -142,7 +142,7 @@ Results vortexResults(const VortexMeasures& measures, const VortexRules& rules) 
   const double critical =
       criticalRotation(static_cast<double>(measures.grains()), measures.radius(), tank.radius, tank.gravity);
   rotation.numbers = {{"rotation", bedRotation(measures)}, {"critical_rotation", critical}};
-  rotation.marks = {{"critical rotation", critical, false}};
+  rotation.marks = {{"critical rotation", std::copysign(critical, bedRotation(measures)), false}};
   results.curves.push_back(std::move(rotation));
 
   Curve core = courseOf(measures, "vortex_core", "Empty core", {"core radius / tank radius", ""},

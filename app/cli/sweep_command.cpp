@@ -35,6 +35,14 @@ void addSweep(CLI::App& app, Action& action) {
                    "run this share of the runs into a table of its own: a job of the array")
       ->type_name("K/N");
   command->add_flag("--gather", a.gather, "take the rows of all shares over");
+#ifdef SANDGLASS_VIS
+  command
+      ->add_option(
+          "--plot", a.plot,
+          "phase diagram and its CSV into -o FILE.png: x=COLUMN y=COLUMN colour=COLUMN, line=COLUMN, "
+          "where=COLUMN:VALUE, classes=N, pictures=yes")
+      ->type_name("KEY=VALUE");
+#endif
   command->callback([arguments, &action] { action = [arguments] { return sweep(*arguments); }; });
 }
 

@@ -6,6 +6,9 @@
 #include "app/cli/console.h"
 #include "app/cli/stop_signals.h"
 #include "app/cli/sweep_slurm.h"
+#ifdef SANDGLASS_VIS
+#include "app/cli/sweep_plot.h"
+#endif
 #include "sim/base/error.h"
 #include "sim/io/atomic_file.h"
 #include "sim/run/folder_lock.h"
@@ -170,6 +173,9 @@ int recompute(const SweepArguments& a) {
 int sweep(const SweepArguments& a) {
   if (a.dryRun) return dryRun(a);
   if (a.recompute > 0) return recompute(a);
+#ifdef SANDGLASS_VIS
+  if (!a.plot.empty()) return plotSweep(a);
+#endif
   if (!a.share.empty()) {
     const auto [share, shares] = parseShare(a.share);
     const fs::path file = openShare(a.source, share, shares);
