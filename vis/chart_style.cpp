@@ -12,13 +12,13 @@ namespace {
 /// Kinds of points: each has a symbol, or a size, of its own as well.
 SeriesStyle pointStyle(std::size_t kind) {
   static const SeriesStyle styles[] = {
-      {{140, 140, 140}, vtkPen::NO_PEN, vtkPlotPoints::PLUS, 7},
-      {{86, 180, 233}, vtkPen::NO_PEN, vtkPlotPoints::SQUARE, 8},
+      {{140, 140, 140}, vtkPen::NO_PEN, vtkPlotPoints::SQUARE, 4},
+      {{86, 180, 233}, vtkPen::NO_PEN, vtkPlotPoints::SQUARE, 9},
       {{0, 158, 115}, vtkPen::NO_PEN, vtkPlotPoints::CIRCLE, 10},
-      {{213, 94, 0}, vtkPen::NO_PEN, vtkPlotPoints::DIAMOND, 10},
-      {{230, 159, 0}, vtkPen::NO_PEN, vtkPlotPoints::CIRCLE, 5},
-      {{204, 121, 167}, vtkPen::NO_PEN, vtkPlotPoints::CROSS, 10},
-      {{60, 60, 60}, vtkPen::NO_PEN, vtkPlotPoints::SQUARE, 4},
+      {{213, 94, 0}, vtkPen::NO_PEN, vtkPlotPoints::DIAMOND, 11},
+      {{200, 130, 0}, vtkPen::NO_PEN, vtkPlotPoints::CROSS, 11},
+      {{170, 60, 130}, vtkPen::NO_PEN, vtkPlotPoints::PLUS, 14},
+      {{60, 60, 60}, vtkPen::NO_PEN, vtkPlotPoints::CROSS, 5},
   };
   return styles[kind % std::size(styles)];
 }

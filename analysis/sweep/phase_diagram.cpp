@@ -151,9 +151,10 @@ PhaseDiagram phaseDiagram(const SweepTable& table, const DiagramOptions& given) 
   chart.title = table.plan().title.empty() ? "Phase diagram" : table.plan().title;
   chart.x = axis(x);
   chart.y = axis(y);
-  chart.frames = rows.size();
   chart.definition =
-      fmt::format("{} runs; {}: {}", rows.size(), columns[colour].name, columns[colour].description);
+      fmt::format("{} runs; {}{}: {}", rows.size(), columns[colour].name,
+                  columns[colour].unit.empty() ? "" : fmt::format(" [{}]", columns[colour].unit),
+                  columns[colour].description);
   for (const auto& [name, value] : options.where)
     chart.definition += fmt::format("; {} = {}", name, value);
 
@@ -196,9 +197,9 @@ PhaseDiagram phaseDiagram(const SweepTable& table, const DiagramOptions& given) 
     const int classes = high > low ? std::clamp(options.classes, 1, 6) : 1;
     const double width = high > low ? (high - low) / classes : 1;
     for (int k = 0; k < classes; ++k) {
-      Series series = scattered(fmt::format("{:.3g} to {:.3g}{}{}", low + k * width,
-                                            k + 1 == classes ? high : low + (k + 1) * width,
-                                            columns[colour].unit.empty() ? "" : " ", columns[colour].unit));
+      const double from = low + k * width, to = k + 1 == classes ? high : from + width;
+      Series series =
+          scattered(k == 0 ? fmt::format("{:.3g} to {:.3g}", from, to) : fmt::format("to {:.3g}", to));
       for (const auto& place : places)
         if (!std::isnan(place.value) &&
             std::min(classes - 1, static_cast<int>((place.value - low) / width)) == k)

@@ -36,10 +36,12 @@ std::vector<std::pair<SweepColumn, SweepValue>> vortexColumns(const VortexMeasur
   number("listed_settle_time", "s", "when the bed had settled, by the listing", listed.settled);
 
   const VortexTank& tank = measures.tank();
+  const auto& samples = measures.samples();
   const double rotation = std::abs(bedRotation(measures));
   const double critical =
       criticalRotation(static_cast<double>(measures.grains()), measures.radius(), tank.radius, tank.gravity);
   number("rotation", "rad/s", "of the bed, mean of the last 1000 frames", rotation);
+  number("rotation_end", "rad/s", "of the bed, at the end", std::abs(samples.back().rotation));
   number("critical_rotation", "rad/s", "at which a close-packed bed's paraboloid touches the floor",
          critical);
   number("rotation_ratio", "", "rotation / critical_rotation", rotation / critical);
@@ -50,7 +52,6 @@ std::vector<std::pair<SweepColumn, SweepValue>> vortexColumns(const VortexMeasur
   number("curvature_ratio", "", "curvature over rotation^2 / 2 g",
          surface.curvature * 2 * tank.gravity / (rotation * rotation));
   double risers = 0, height = 0;
-  const auto& samples = measures.samples();
   const std::size_t from = samples.size() - std::min<std::size_t>(1000, samples.size());
   for (std::size_t k = from; k < samples.size(); ++k) {
     risers += samples[k].speedRisers[1] / static_cast<double>(samples.size() - from);
