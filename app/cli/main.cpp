@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #ifdef SANDGLASS_VIS
 #include "vis/readers/child_reader.h"
+#include "vis/readers/vtk_frame.h"
 #include "vis/readers/vtp_mesh.h"
 #endif
 
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   cli::addSweep(app, action);
 #ifdef SANDGLASS_VIS
   vis::registerMeshReaders();
+  vis::registerFrameReaders();
   cli::addRender(app, action);
 #endif
 

@@ -6,6 +6,7 @@
 #include "app/desktop/style.h"
 #include "sim/base/error.h"
 #include "vis/readers/child_reader.h"
+#include "vis/readers/vtk_frame.h"
 #include "vis/readers/vtp_mesh.h"
 
 #include <CLI/CLI.hpp>
@@ -118,6 +119,7 @@ int main(int argc, char** argv) {
     return app.exit(e) == 0 ? 0 : 2;
   }
   sandglass::vis::registerMeshReaders();
+  sandglass::vis::registerFrameReaders();
   try {
     return show(arguments, argc, argv);
   } catch (const sandglass::InputError& e) {

@@ -15,10 +15,13 @@ namespace sandglass {
 void exportCsv(FrameSource& frames, std::size_t first, std::size_t last, const std::filesystem::path& file) {
   std::ofstream out(temporaryName(file), std::ios::binary | std::ios::trunc);
   std::vector<std::string> scalars, vectors;
+  bool named = false;
   for (std::size_t i = first; i < last; ++i) {
     const FramePtr frame = frames.load(i);
     std::string text;
-    if (i == first) {
+    // The columns are those of the first frame that holds grains: an empty one of another program names none.
+    if (!named && (frame->size() > 0 || i + 1 == last)) {
+      named = true;
       for (const auto& [key, value] : frame->provenance)
         text += fmt::format("# {}: {}\n", key, value);
       text += "time,step,id,x,y,z";

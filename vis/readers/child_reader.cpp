@@ -1,14 +1,18 @@
 #include "vis/readers/child_reader.h"
 
 #include "sim/base/error.h"
+#include "vis/readers/vtk_frame.h"
 #include "vis/readers/vtp_mesh.h"
 
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fcntl.h>
@@ -27,8 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* word = "--read-vtp-for-parent";
-constexpr char meshMark = 'M', faultMark = 'F';
+constexpr const char *meshWord = "--read-vtp-for-parent", *frameWord = "--read-vtk-frame-for-parent";
+constexpr char meshMark = 'M', frameMark = 'G', faultMark = 'F';
 
 void sendAll(const void* data, std::size_t size) {
   const char* at = static_cast<const char*>(data);
@@ -47,6 +51,22 @@ void answer(const TriangleMesh& mesh) {
   sendAll(counts, sizeof counts);
   sendAll(mesh.points.data(), mesh.points.size() * sizeof(Vec3));
   sendAll(mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
+}
+
+/// 'G', time (NaN: none), number of columns and of rows; for each column the length of its name, the name and
+/// the numbers.
+void answer(const RawFrame& frame) {
+  const double time = frame.time.value_or(std::numeric_limits<double>::quiet_NaN());
+  const std::uint64_t counts[] = {frame.columns.size(), frame.rows};
+  sendAll(&frameMark, 1);
+  sendAll(&time, sizeof time);
+  sendAll(counts, sizeof counts);
+  for (const auto& column : frame.columns) {
+    const std::uint64_t length = column.name.size();
+    sendAll(&length, sizeof length);
+    sendAll(column.name.data(), length);
+    sendAll(column.numbers.data(), column.numbers.size() * sizeof(double));
+  }
 }
 
 class Child {
@@ -139,10 +159,77 @@ TriangleMesh checkedMesh(const fs::path& file, const std::string& said) {
   return mesh;
 }
 
+/// Cuts values from what a child said; everything beyond the end is a fault.
+class Answer {
+public:
+  Answer(const fs::path& file, std::string_view rest) : file_(file), rest_(rest) {}
+  void copy(void* to, std::uint64_t size) {
+    if (size > rest_.size()) refuse(file_, "what its reader sent back is no frame; check the file");
+    if (size > 0) std::memcpy(to, rest_.data(), size);
+    rest_.remove_prefix(size);
+  }
+  template <class T> T take() {
+    T value;
+    copy(&value, sizeof value);
+    return value;
+  }
+  std::size_t left() const { return rest_.size(); }
+
+private:
+  const fs::path& file_;
+  std::string_view rest_;
+};
+
+RawFrame checkedFrame(const fs::path& file, const std::string& said) {
+  Answer answer(file, std::string_view(said).substr(1));
+  RawFrame frame;
+  if (const double time = answer.take<double>(); std::isfinite(time)) frame.time = time;
+  const auto columns = answer.take<std::uint64_t>(), rows = answer.take<std::uint64_t>();
+  if (rows > answer.left() / sizeof(double) || columns > answer.left() / sizeof(std::uint64_t))
+    refuse(file, "what its reader sent back is no frame; check the file");
+  frame.rows = rows;
+  for (std::uint64_t c = 0; c < columns; ++c) {
+    const auto length = answer.take<std::uint64_t>();
+    if (length > answer.left()) refuse(file, "what its reader sent back is no frame; check the file");
+    RawColumn column{std::string(length, '\0'), std::vector<double>(rows), {}};
+    answer.copy(column.name.data(), length);
+    answer.copy(column.numbers.data(), rows * sizeof(double));
+    frame.columns.push_back(std::move(column));
+  }
+  if (answer.left() > 0) refuse(file, "what its reader sent back is no frame; check the file");
+  return frame;
+}
+
+/// Starts a child with that word and hands back what it says after `mark`.
+std::string saidApart(const fs::path& file, const ReaderLimits& limits, const fs::path& program,
+                      const char* word, char mark) {
+  if (!fs::is_regular_file(file)) refuse(file, "the file cannot be opened; check its name");
+  Child child(
+      program.empty() ? "/proc/self/exe" : program,
+      {"sandglass", word, file.string(), std::to_string(limits.memory), std::to_string(limits.cpuSeconds)});
+  bool complete = false;
+  std::string said = child.listen(limits, complete);
+  if (!complete)
+    refuse(file,
+           fmt::format("its reader took longer than {} s or sent more than {:.3g} MB and was stopped; check "
+                       "the file",
+                       limits.wallSeconds, static_cast<double>(limits.answer) / 1e6));
+  const int status = child.wait();
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !said.empty()) {
+    if (said[0] == faultMark) throw InputError(said.substr(1));
+    if (said[0] == mark) return said;
+  }
+  refuse(file, fmt::format(
+                   "its reader gave up: the file is damaged, or needs more than {:.1f} GB of memory or {} s",
+                   static_cast<double>(limits.memory) / 1e9, limits.cpuSeconds));
+}
+
 } // namespace
 
 bool serveAsReader(int argc, char** argv, int& code) {
-  if (argc != 5 || std::strcmp(argv[1], word) != 0) return false;
+  const bool mesh = argc == 5 && std::strcmp(argv[1], meshWord) == 0,
+             frame = argc == 5 && std::strcmp(argv[1], frameWord) == 0;
+  if (!mesh && !frame) return false;
   const auto limit = [](auto resource, const char* text) {
     const rlim_t value = std::strtoull(text, nullptr, 10);
     const rlimit both{value, value};
@@ -154,7 +241,10 @@ bool serveAsReader(int argc, char** argv, int& code) {
   ::setrlimit(RLIMIT_CORE, &none);
   code = 0;
   try {
-    answer(readVtpMesh(argv[2]));
+    if (mesh)
+      answer(readVtpMesh(argv[2]));
+    else
+      answer(readVtkFrame(argv[2]));
   } catch (const std::bad_alloc&) {
     code = 4;
   } catch (const std::exception& fault) {
@@ -165,25 +255,11 @@ bool serveAsReader(int argc, char** argv, int& code) {
 }
 
 TriangleMesh readVtpApart(const fs::path& file, const ReaderLimits& limits, const fs::path& program) {
-  if (!fs::is_regular_file(file)) refuse(file, "the file cannot be opened; check its name");
-  Child child(
-      program.empty() ? "/proc/self/exe" : program,
-      {"sandglass", word, file.string(), std::to_string(limits.memory), std::to_string(limits.cpuSeconds)});
-  bool complete = false;
-  const std::string said = child.listen(limits, complete);
-  if (!complete)
-    refuse(file,
-           fmt::format("its reader took longer than {} s or sent more than {:.3g} MB and was stopped; check "
-                       "the file",
-                       limits.wallSeconds, static_cast<double>(limits.answer) / 1e6));
-  const int status = child.wait();
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !said.empty()) {
-    if (said[0] == faultMark) throw InputError(said.substr(1));
-    if (said[0] == meshMark) return checkedMesh(file, said);
-  }
-  refuse(file, fmt::format(
-                   "its reader gave up: the file is damaged, or needs more than {:.1f} GB of memory or {} s",
-                   static_cast<double>(limits.memory) / 1e9, limits.cpuSeconds));
+  return checkedMesh(file, saidApart(file, limits, program, meshWord, meshMark));
+}
+
+RawFrame readVtkApart(const fs::path& file, const ReaderLimits& limits, const fs::path& program) {
+  return checkedFrame(file, saidApart(file, limits, program, frameWord, frameMark));
 }
 
 } // namespace sandglass::vis

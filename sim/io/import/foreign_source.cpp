@@ -22,6 +22,7 @@ public:
                 const SequencePlace& place)
       : file_(std::move(file)), settings_(settings), place_(place), kind_(readerFor(*file_)),
         format_(kind_.open(*file_, settings_)), walls_(settings_) {
+    remarks_ = walls_.remarks();
     walk();
     if (marks_.empty()) {
       if (!fault_.empty()) throw InputError(fault_);

@@ -70,7 +70,7 @@ private:
     }
     for (const auto& [quantity, column] : settings_.columns)
       if (!column.empty() && std::none_of(raw_.columns.begin(), raw_.columns.end(),
-                                          [&](const RawColumn& c) { return c.name == column; })) {
+                                          [&name = column](const RawColumn& c) { return c.name == name; })) {
         std::string names;
         for (const auto& c : raw_.columns)
           names += (names.empty() ? "" : ", ") + c.name;

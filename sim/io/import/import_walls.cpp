@@ -40,6 +40,13 @@ ImportWalls::ImportWalls(const ImportSettings& settings) {
       const Scene scene = readScene(file.string());
       sceneText_ = writeScene(scene);
       domain_ = scene.domain;
+      double begins = 0;
+      for (const auto& stage : scene.stages) {
+        for (const auto& wall : stage.removeWalls)
+          removedAt_.try_emplace(wall, begins);
+        if (!stage.duration) break; // when the next one begins is not known
+        begins += *stage.duration;
+      }
       for (const auto& wall : scene.walls)
         walls_.push_back(wallOf(wall.name, wall.shape.kind, wall.shape.parameters, file.string()));
       continue;
@@ -53,11 +60,19 @@ ImportWalls::ImportWalls(const ImportSettings& settings) {
         for (const auto& spec : kind.parameters)
           if (spec.fallback && !parameters.has(spec.name)) parameters.set(spec.name, *spec.fallback);
     walls_.push_back(wallOf(file.stem().string(), "mesh", parameters, file.string()));
+    remarks_.push_back(
+        fmt::format("the triangles of {} have two sides, so they bound no space: analyses near "
+                    "walls want a scene as --walls, or limits (--limit)",
+                    file.filename().string()));
   }
 }
 
 void ImportWalls::addTo(Frame& frame) const {
-  frame.walls.insert(frame.walls.end(), walls_.begin(), walls_.end());
+  for (FrameWall wall : walls_) {
+    const auto removed = removedAt_.find(wall.name);
+    wall.active = removed == removedAt_.end() || frame.time < removed->second;
+    frame.walls.push_back(std::move(wall));
+  }
 }
 
 } // namespace sandglass

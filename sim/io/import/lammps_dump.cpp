@@ -71,7 +71,7 @@ public:
     if (names.empty() && *header.count > 0 && in.peek(line))
       names = oldColumns(in, cellsOf(line).size(), frame);
     nameColumns(frame, names);
-    if (header.units == "real" || header.units == "metal" || header.units == "electron")
+    if (!header.units.empty() && header.units != "si" && header.units != "lj")
       frame.remarks.push_back(fmt::format(
           "the file is in LAMMPS units '{}'; give their sizes under [units] in the file of --columns",
           header.units));

@@ -10,7 +10,7 @@ namespace sandglass {
 
 namespace {
 
-constexpr std::size_t blockSize = std::size_t{1} << 20;
+constexpr std::size_t blockSize = std::size_t{1} << 17;
 
 } // namespace
 

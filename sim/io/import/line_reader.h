@@ -1,6 +1,6 @@
 #pragma once
-// Lines of a text file in blocks: line ends \n or \r\n, mixed as they may be, a mark of UTF-8 at the start
-// passed over. Memory: one block of 1 MB, and up to `longestLine` where a line is longer than that.
+// Lines of a text file in blocks of 128 kB: line ends \n or \r\n, mixed as they may be, a mark of UTF-8 at
+// the start passed over. Memory: one block, and up to `longestLine` where a line is longer than that.
 
 #include "sim/io/import/byte_stream.h"
 
