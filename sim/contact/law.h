@@ -56,6 +56,10 @@ public:
   /// all.
   virtual bool readsSpin() const { return false; }
   virtual bool turnsGrains() const { return false; }
+  /// Whether the couples that it writes are all that turns the grains, the same on both, while tangential
+  /// forces have no torque. It then reads the sum of the spins in (wx, wy, wz). For laws that are kept for
+  /// their results, not for their physics; grains of one size alone.
+  virtual bool ownTorque() const { return false; }
   /// Whether slip and torque are to use the full radii as lever arms. Default: arms up to the contact point,
   /// which add up to the distance of the centres and so keep angular momentum to round-off.
   virtual bool fullRadiusArm() const { return false; }

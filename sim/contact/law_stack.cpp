@@ -170,6 +170,15 @@ LawStack::LawStack(const Scene& scene, bool anySize)
     }
     append(kind->make(context), name, LawRole::gap);
   }
+  if (!ownTorque_ || anySize) return;
+  double mass = 0.0;
+  for (const Material& m : scene.materials) {
+    if (meanMass(scene, m.name) == 0.0) continue;
+    const double here = oneMass(scene, m);
+    if (here == 0.0 || (mass > 0.0 && here != mass))
+      throw InputError("friction of spins alone is for grains of one size and density");
+    mass = here;
+  }
 }
 
 void LawStack::appendRole(LawRole role, const std::vector<const ContactSpec*>& specs) {
@@ -198,6 +207,9 @@ void LawStack::appendRole(LawRole role, const std::vector<const ContactSpec*>& s
         context.types[k].parameters = scaled(*kind, choice(*specs[k], role).parameters, stiffnessScale_);
     }
     append(kind->make(context), kind->name, role);
+    if (ownTorque_ && readsSpin_ && !entries_.back().law->ownTorque() && role != LawRole::normal)
+      throw InputError(
+          fmt::format("the {} law '{}' cannot go with friction of spins alone", roleName(role), kind->name));
     if (role == LawRole::tangential && entries_.back().law->fullRadiusArm() != fullRadiusArm_)
       throw InputError("all tangential laws of a scene need the same choice of 'arm'");
   }
@@ -249,6 +261,7 @@ void LawStack::append(std::shared_ptr<const Law> law, std::string name, LawRole 
   turning_ = turning_ || law->turnsGrains();
   fullRadiusArm_ = fullRadiusArm_ || law->fullRadiusArm();
   readsSpin_ = readsSpin_ || law->readsSpin();
+  ownTorque_ = ownTorque_ || law->ownTorque();
   events_ = events_ || (role == LawRole::gap && law->historySize() > 0);
   for (const std::string& quantity : law->grainQuantities()) {
     auto at = std::find(quantityNames_.begin(), quantityNames_.end(), quantity);

@@ -55,6 +55,7 @@ public:
   void useWidth(KernelWidth width) { width_ = width; }
   bool turning() const { return turning_; }
   bool readsSpin() const { return readsSpin_; }
+  bool ownTorque() const { return ownTorque_; }         ///< Law::ownTorque of the tangential law
   bool fullRadiusArm() const { return fullRadiusArm_; } ///< Law::fullRadiusArm of any law
   bool hasEvents() const { return events_; }
   const std::vector<std::string>& quantityNames() const { return quantityNames_; }
@@ -75,7 +76,7 @@ private:
   double range_ = 0.0;
   unsigned reads_ = 0;
   KernelWidth width_ = bestKernelWidth();
-  bool turning_ = false, readsSpin_ = false, fullRadiusArm_ = false, events_ = false;
+  bool turning_ = false, readsSpin_ = false, fullRadiusArm_ = false, events_ = false, ownTorque_ = false;
 };
 
 } // namespace sandglass

@@ -51,6 +51,26 @@ void PairForces::fillBlock(std::int64_t first, int count, double dt, ContactBloc
                            PairColumns& columns) const {
   b.dt = dt;
   kernel_->fill(view_, first, count, b, columns);
+  if (laws_.ownTorque()) sumSpins(first, b);
+}
+
+void PairForces::sumSpins(std::int64_t first, ContactBlock& b) const {
+  for (int c = 0; c < b.size; ++c) {
+    const auto [i, j] = list_->pairs()[first + c];
+    const Quad &a = grains_->roll[i], &z = grains_->roll[j];
+    b.wx[c] = a.x * a.w + z.x * z.w;
+    b.wy[c] = a.y * a.w + z.y * z.w;
+    b.wz[c] = a.z * a.w + z.z * z.w;
+  }
+}
+
+void PairForces::writeTorques(const ContactBlock& b, double* out) const {
+  for (int c = 0; c < b.size; ++c, out += 4 * view_.outputQuads) {
+    out[4] = b.mx[c] / b.radiusA[c];
+    out[5] = b.my[c] / b.radiusA[c];
+    out[6] = b.mz[c] / b.radiusA[c];
+    out[8] = out[9] = out[10] = 0.0;
+  }
 }
 
 void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch,
@@ -69,6 +89,7 @@ void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Sc
     applyLaws(first, scratch);
     reportOverlaps(first, scratch);
     kernel_->write(view_, first, scratch.block, scratch.columns, keepHistory, out);
+    if (laws_.ownTorque()) writeTorques(scratch.block, out);
   }
 }
 

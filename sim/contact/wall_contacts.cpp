@@ -184,7 +184,8 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
               h[q] = block.history[q][c];
             const Vec3 n(block.nx[c], block.ny[c], block.nz[c]), ft(block.ftx[c], block.fty[c], block.ftz[c]);
             const Vec3 f = block.normalForce[c] * n + ft;
-            const Vec3 t = -distance[c] * n.cross(ft) + Vec3(block.mx[c], block.my[c], block.mz[c]);
+            Vec3 t(block.mx[c], block.my[c], block.mz[c]);
+            if (!laws_.ownTorque()) t -= distance[c] * n.cross(ft);
             double* out = result_.data() + k * 6;
             for (int q = 0; q < 3; ++q) {
               out[q] += f[q];

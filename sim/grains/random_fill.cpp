@@ -12,12 +12,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace sandglass {
 
 namespace {
 
-constexpr std::int64_t mostTriesOfOne = 100'000;
 constexpr std::int64_t mostTriesPerGrain = 2'000; ///< on average over the filling
 
 [[noreturn]] void refuse(std::size_t placed, std::size_t wanted, double volumePlaced, double volumeWanted,
@@ -68,6 +68,7 @@ std::vector<GrainSeed> fillRandomly(const FillContext& context) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return grains[a].radius > grains[b].radius; });
 
+  const std::int64_t triesOfOne = parameters.integer("tries"), restarts = parameters.integer("restarts");
   double volumeWanted = 0, volumePlaced = 0;
   const auto volume = [](const GrainSeed& g) { return 4 * std::numbers::pi / 3 * std::pow(g.radius, 3); };
   for (const auto& g : grains)
@@ -77,21 +78,35 @@ std::vector<GrainSeed> fillRandomly(const FillContext& context) {
            region.volume() * openShare(scene, context.fill));
   };
 
-  std::int64_t budget = mostTriesOfOne + mostTriesPerGrain * count;
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  std::optional<PlacementGrid> before;
+  if (restarts > 0) before = context.placed;
+  std::int64_t budget = triesOfOne + mostTriesPerGrain * count, attempt = 0;
+  for (std::size_t k = 0; k < order.size();) {
     GrainSeed& g = grains[order[k]];
     if (!region.holds(g.radius))
       throw InputError(fmt::format(
           "has a region too small for a grain of diameter {:.4g} m; enlarge the region", 2 * g.radius));
-    RandomStream random(scene.seed, RandomPurpose::grainPosition, static_cast<std::uint64_t>(g.id));
-    for (std::int64_t tries = 0;; ++tries) {
-      if (tries == mostTriesOfOne || budget-- == 0) giveUp(k);
+    RandomStream random(scene.seed, RandomPurpose::grainPosition,
+                        static_cast<std::uint64_t>(g.id) + (static_cast<std::uint64_t>(attempt) << 48));
+    bool found = false;
+    for (std::int64_t tries = 0; !found; ++tries) {
+      if (tries == triesOfOne || budget-- == 0) break;
       const double x = random.uniform(), y = random.uniform(), z = random.uniform();
       const Vec3 at = context.open.wrapped(region.centre({x, y, z}, g.radius));
       if (!context.placed.isFree(at, g.radius) || !context.open.admits(at, g.radius)) continue;
       g.position = at;
-      break;
+      found = true;
     }
+    if (!found) {
+      if (attempt == restarts) giveUp(k);
+      ++attempt; // all anew, at other places
+      context.placed = *before;
+      budget = triesOfOne + mostTriesPerGrain * count;
+      volumePlaced = 0;
+      k = 0;
+      continue;
+    }
+    ++k;
     context.placed.add(g.position, g.radius);
     volumePlaced += volume(g);
     setMotion(g, scene.seed, parameters);

@@ -17,8 +17,10 @@ EnergyWatchdog::EnergyWatchdog(const Scene& scene) : scene_(scene), on_(true) {
 void EnergyWatchdog::measureFrom(const Vec3& gravity) {
   const Domain& domain = scene_.domain;
   gravity_ = gravity;
-  on_ = std::all_of(scene_.contacts.begin(), scene_.contacts.end(),
-                    [](const ContactSpec& contact) { return contact.gap.empty(); });
+  on_ = std::all_of(scene_.contacts.begin(), scene_.contacts.end(), [](const ContactSpec& contact) {
+    const Parameters& friction = contact.tangential.parameters;
+    return contact.gap.empty() && !(friction.has("slip") && friction.text("slip") == "spin");
+  });
   lowestPotential_ = 0;
   for (int k = 0; k < 3; ++k) {
     if (domain.periodic[static_cast<std::size_t>(k)] && gravity[k] != 0) on_ = false;

@@ -1,15 +1,15 @@
 #pragma once
 // Stops a run whose mechanical energy rises without a source.
 //
-// Contacts, friction and outlets only take energy away; what fillings bring in is counted. Energy that leaves
-// with a grain through an outlet must not look like a gain, so potential energy is measured from the lowest
-// corner of the domain, where no grain's is negative. A step that is too long shows as growth within a few
-// hundred steps, and a slow leak as growth over the start; both are compared with a margin that lets the
-// energy stored in tangential and rolling springs, which solvers need not report, come back. What moving
-// walls put in is known and taken off; the margin grows with what they have put in lately.
+// Contacts, friction and outlets only take energy away; what fillings and fields bring in is counted. Energy
+// that leaves with a grain through an outlet must not look like a gain, so potential energy is measured from
+// the lowest corner of the domain, where no grain's is negative. A step that is too long shows as growth
+// within a few hundred steps, and a slow leak as growth over the start; both are compared with a margin that
+// lets the energy stored in tangential and rolling springs, which solvers need not report, come back. What
+// moving walls put in is known and taken off; the margin grows with what they have put in lately.
 //
 // Off where the sum is not bounded by what came in: gravity along a periodic direction, gap laws (whose
-// potential is not in Energies).
+// potential is not in Energies), friction of spins alone (which makes energy).
 
 #include "sim/scene/scene.h"
 #include "sim/solvers/solver.h"

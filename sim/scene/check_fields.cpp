@@ -31,8 +31,8 @@ void checkReferences(const Scene& scene, const FieldSpec& field, const std::stri
       names.push_back(other.name);
   for (const auto& name : field.what.parameters.texts(key))
     if (std::find(names.begin(), names.end(), name) == names.end())
-      faults.wrong(path + "." + key, fmt::format("but the scene has no {} '{}' among its fields; {}", what, name,
-                                                 suggestion(name, names, "there are")));
+      faults.wrong(path + "." + key, fmt::format("but the scene has no {} '{}' among its fields; {}", what,
+                                                 name, suggestion(name, names, "there are")));
 }
 
 void checkFactors(const Scene& scene, const std::vector<FieldFactor>& factors, const std::string& path,
@@ -63,8 +63,9 @@ void checkFields(const Scene& scene, FaultList& faults) {
     checkReferences(scene, field, path, "of", FieldRole::drag, "drag", faults);
     const FieldKind* kind = findField(field.what.kind);
     if (kind && kind->role == FieldRole::shield && (scene.domain.periodic[0] || scene.domain.periodic[1]))
-      faults.about(path, "counts grains below each other, which has no end where the domain is periodic along "
-                         "x or y; close those sides or leave the shield out");
+      faults.about(path,
+                   "counts grains below each other, which has no end where the domain is periodic along "
+                   "x or y; close those sides or leave the shield out");
   }
   if (scene.wedge && !scene.fields.empty())
     faults.about("wedge", "cannot go with [[field]] tables: fields do not know images across its faces; "

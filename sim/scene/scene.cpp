@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/math/sector.h"
+#include "sim/scene/presets.h"
 #include "sim/scene/scene_checks.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/scene_writer.h"
@@ -71,6 +72,7 @@ Scene parseScene(const std::string& tomlText, const std::string& nameForMessages
       faults.foreign(problem.what());
     }
   }
+  applyPreset(root);
   Scene scene = readSceneDocument(root, baseFolder, faults);
   scene.file = nameForMessages;
   checkScene(scene, faults);

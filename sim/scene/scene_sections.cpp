@@ -100,6 +100,9 @@ Parameters store(const WedgeSpec& wedge) {
 void load(const Parameters& values, Material& material) {
   get(values, "name", material.name);
   get(values, "density", material.density);
+  double share = 1.0; // not kept: the density is what counts
+  get(values, "mass_share", share);
+  material.density *= share;
   get(values, "youngs_modulus", material.youngsModulus);
   get(values, "poisson_ratio", material.poissonRatio);
 }
@@ -320,6 +323,9 @@ void load(const Parameters& values, AccuracySpec& accuracy) {
   std::string arithmetic;
   get(values, "arithmetic", arithmetic);
   accuracy.fastArithmetic = arithmetic == "fast";
+  std::string integrator;
+  get(values, "integrator", integrator);
+  accuracy.semiImplicit = integrator == "semi_implicit";
   get(values, "skin", accuracy.skin);
   get(values, "maximum_overlap", accuracy.maximumOverlap);
   get(values, "maximum_travel", accuracy.maximumTravel);
@@ -332,6 +338,7 @@ Parameters store(const AccuracySpec& accuracy) {
   put(values, "time_step", accuracy.timeStep);
   values.set("stiffness_scale", accuracy.stiffnessScale);
   values.set("arithmetic", std::string(accuracy.fastArithmetic ? "fast" : "portable"));
+  values.set("integrator", std::string(accuracy.semiImplicit ? "semi_implicit" : "leapfrog"));
   values.set("skin", accuracy.skin);
   values.set("maximum_overlap", accuracy.maximumOverlap);
   values.set("maximum_travel", accuracy.maximumTravel);

@@ -3,6 +3,7 @@
 // half plane opposite is asked too: near an apex a grain touches both sides.
 
 #include "sim/base/error.h"
+#include "sim/walls/distance_normal.h"
 #include "sim/walls/profile.h"
 #include "sim/walls/wall_kinds.h"
 
@@ -122,6 +123,16 @@ const ParameterSpec endsSpec{"ends",
                              false,
                              {"open", "bottom", "top", "both"}};
 
+const ParameterSpec normalSpec{
+    .name = "normal",
+    .type = ParameterType::text,
+    .unit = "1",
+    .description =
+        "direction of its push: a unit vector, or the way to the axis over the distance from the origin, "
+        "as a program of 2012 had it",
+    .optional = true,
+    .choices = {"unit", "over_distance"}};
+
 ParameterSpec length(const char* name, const char* description, bool zeroAllowed = false) {
   return {name, ParameterType::number, "m", description, {}, false, 0.0, 1e30, !zeroAllowed};
 }
@@ -151,13 +162,19 @@ std::shared_ptr<const WallShape> frustum(const Parameters& p, double lower, doub
 } // namespace
 
 WallKind cylinderWallKind() {
-  return {
-      "cylinder",
-      "a tube seen from inside, open or closed",
-      {baseSpec, axisSpec, length("radius", "inner radius"), length("height", "along the axis"), endsSpec},
-      [](const Parameters& p) {
-        return frustum(p, p.number("radius"), p.number("radius"), p.vector("base"), p.text("ends"));
-      }};
+  return {"cylinder",
+          "a tube seen from inside, open or closed",
+          {baseSpec, axisSpec, length("radius", "inner radius"), length("height", "along the axis"), endsSpec,
+           normalSpec},
+          [](const Parameters& p) {
+            const auto wall =
+                frustum(p, p.number("radius"), p.number("radius"), p.vector("base"), p.text("ends"));
+            if (!p.has("normal") || p.text("normal") == "unit") return wall;
+            if (p.text("ends") != "open")
+              throw InputError("a normal over_distance is for a tube with open ends");
+            return withDistanceNormal(wall, p.vector("base"), p.vector("axis"), p.number("radius"),
+                                      p.number("height"));
+          }};
 }
 
 WallKind coneWallKind() {

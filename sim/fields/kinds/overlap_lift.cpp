@@ -17,7 +17,7 @@ public:
   explicit OverlapLift(const Parameters& p)
       : coefficient_(p.number("coefficient")), decay_(p.number("decay")), reference_(p.number("reference")) {}
 
-  bool looks() const override { return true; }
+  bool looks() const override { return coefficient_ > 0.0; }
 
   void look(const GrainStore& grains, const PairList& list, Parallel& parallel) override {
     overlaps_.assign(grains.size(), 0.0);
@@ -29,6 +29,7 @@ public:
   }
 
   void apply(FieldBlock& b, double factor) const override {
+    if (coefficient_ == 0.0) return;
     const double coefficient = factor * coefficient_, decay = decay_, reference = reference_;
     FieldBlock::Column sums{};
     for (int i = 0; i < b.size; ++i)
@@ -68,7 +69,7 @@ FieldKind overlapLiftField() {
           FieldRole::lift,
           "an upward force on grains that overlap others, as a program of 2012 had it",
           "8 bytes a grain, one more look at each contact a step",
-          {fieldNumber("coefficient", "N/m", "force over the sum of overlaps", 0),
+          {fieldNumber("coefficient", "N/m", "force over the sum of overlaps", 0, false, 0.0),
            heightDecay("rate at which it falls off with height"), heightReference()},
           [](const Parameters& p) { return std::make_unique<OverlapLift>(p); }};
 }

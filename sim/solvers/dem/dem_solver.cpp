@@ -134,7 +134,7 @@ void DemSolver::removeWall(const std::string& name) {
 void DemSolver::setGravity(const Vec3& gravity) {
   prepare();
   // Velocities are half a step behind: those of the full step stay when the kick that leads there is changed.
-  const Vec3 kick = 0.5 * dt_ * (gravity_ - gravity);
+  const Vec3 kick = halfStep() * (gravity_ - gravity);
   for (std::size_t i = 0; i < grains_.size(); ++i) {
     Quad& v = grains_.motion[i];
     v = {v.x + kick.x(), v.y + kick.y(), v.z + kick.z(), v.w};
@@ -153,12 +153,12 @@ void DemSolver::setField(const std::string& name, double factor) {
   evaluate(after, torqueAfter);
   for (std::size_t i = 0; i < grains_.size(); ++i) {
     Quad& v = grains_.motion[i];
-    const Vec3 kick = 0.5 * dt_ * v.w * (before[i].vec() - after[i].vec());
+    const Vec3 kick = halfStep() * v.w * (before[i].vec() - after[i].vec());
     v = {v.x + kick.x(), v.y + kick.y(), v.z + kick.z(), v.w};
     if (!grains_.turning) continue;
     Quad& u = grains_.roll[i];
     const Vec3 turn =
-        0.5 * dt_ * grains_.place[i].w / grains_.inertia(i) * (torqueBefore[i].vec() - torqueAfter[i].vec());
+        halfStep() * grains_.place[i].w / grains_.inertia(i) * (torqueBefore[i].vec() - torqueAfter[i].vec());
     u = {u.x + turn.x(), u.y + turn.y(), u.z + turn.z(), u.w};
   }
   frozen_.hold(grains_);
@@ -210,10 +210,10 @@ const DemSolver::FullStep& DemSolver::fullStep() const {
   full.spin.resize(grains_.turning ? n : 0);
   evaluate(full.force, full.torque);
   for (std::size_t i = 0; i < n; ++i) {
-    const double kick = 0.5 * dt_ * grains_.motion[i].w;
-    full.velocity[i] = grains_.motion[i].vec() + kick * full.force[i].vec() + 0.5 * dt_ * gravity_;
+    const double kick = halfStep() * grains_.motion[i].w;
+    full.velocity[i] = grains_.motion[i].vec() + kick * full.force[i].vec() + halfStep() * gravity_;
     if (grains_.turning)
-      full.spin[i] = grains_.spin(i) + 0.5 * dt_ / grains_.inertia(i) * full.torque[i].vec();
+      full.spin[i] = grains_.spin(i) + halfStep() / grains_.inertia(i) * full.torque[i].vec();
   }
   for (std::size_t i = 0; i < n && frozen_.any(); ++i) {
     if (!frozen_.holds(grains_.species[i])) continue;
@@ -269,16 +269,16 @@ void DemSolver::prepare() {
     start.push_back(grains_.motion[i]);
     if (grains_.turning) start.push_back(grains_.roll[i]);
   }
-  for (int round = 0; round < 4 && !fresh.empty(); ++round) {
+  for (int round = 0; round < 4 && !fresh.empty() && !scene_.accuracy.semiImplicit; ++round) {
     evaluate(force, torque);
     const Quad* from = start.data();
     for (const std::int64_t i : fresh) {
       const Quad v = *from++;
-      const Vec3 before = v.vec() - 0.5 * dt_ * (v.w * force[i].vec() + gravity_);
+      const Vec3 before = v.vec() - halfStep() * (v.w * force[i].vec() + gravity_);
       grains_.motion[i] = {before.x(), before.y(), before.z(), v.w};
       if (!grains_.turning) continue;
       const Quad u = *from++;
-      const Vec3 rolled = u.vec() - 0.5 * dt_ * grains_.place[i].w / grains_.inertia(i) * torque[i].vec();
+      const Vec3 rolled = u.vec() - halfStep() * grains_.place[i].w / grains_.inertia(i) * torque[i].vec();
       grains_.roll[i] = {rolled.x(), rolled.y(), rolled.z(), u.w};
     }
     frozen_.hold(grains_);
