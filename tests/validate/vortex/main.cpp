@@ -1,6 +1,6 @@
-// Usage: validate_vortex FOLDER [--case grid]... [--quick] [--work DIR]. Runs the sweeps beside this file
-// into DIR (out/validation/vortex_sweeps by default; run again, it goes on), then writes FOLDER/vortex.csv,
-// vortex.md and vortex/ with diagrams and their numbers.
+// Usage: validate_vortex FOLDER [--case grid]... [--quick] [--judge] [--work DIR]. Runs the sweeps beside
+// this file into DIR (out/validation/vortex_sweeps by default; run again, it goes on), then writes
+// FOLDER/vortex.csv, vortex.md and vortex/ with diagrams and their numbers.
 
 #include "analysis/sweep/phase_diagram.h"
 #include "analysis/sweep/sweep_runner.h"
@@ -34,7 +34,7 @@ std::string contentOf(const fs::path& file) {
 }
 
 /// Runs what is missing of a sweep.
-analysis::SweepTable sweep(const VortexCase& c, const fs::path& work, bool quick) {
+analysis::SweepTable sweep(const VortexCase& c, const fs::path& work, bool quick, bool run) {
   const fs::path source = SANDGLASS_SOURCE_DIR "/tests/validate/vortex";
   std::string text = contentOf(source / (c.name + ".toml"));
   if (quick) // a fifth of the time, one seed: shows that everything works
@@ -59,7 +59,7 @@ analysis::SweepTable sweep(const VortexCase& c, const fs::path& work, bool quick
     std::cerr << fmt::format("{}: {} of {} runs, {} failed, {:.0f} s left\n", c.name, p.done, p.runs,
                              p.failed, p.secondsLeft);
   };
-  analysis::SweepRunner(table, options).execute();
+  if (run) analysis::SweepRunner(table, options).execute();
   return table;
 }
 
@@ -69,18 +69,19 @@ int main(int argc, char** argv) {
   CLI::App app{"the vortex tank against its source"};
   std::string folder, work = "out/validation/vortex_sweeps";
   std::vector<std::string> names;
-  bool quick = false;
+  bool quick = false, judgeOnly = false;
   app.add_option("folder", folder, "where results go")->required();
   app.add_option("--case", names, "only these cases: speeds, grid, coupled, drags, volume");
   app.add_option("--work", work, "where the tables of the sweeps are kept");
   app.add_flag("--quick", quick, "runs of a second: shows that everything works");
+  app.add_flag("--judge", judgeOnly, "run nothing, judge the runs that are there");
   CLI11_PARSE(app, argc, argv);
   try {
     Report report;
     std::string pages;
     for (const VortexCase& c : allCases()) {
       if (!names.empty() && std::find(names.begin(), names.end(), c.name) == names.end()) continue;
-      const auto table = sweep(c, work, quick);
+      const auto table = sweep(c, work, quick, !judgeOnly);
       pages += fmt::format("\n## {}\n\n{}\n", c.title, c.judge(table, report));
       const fs::path csv = fs::path(folder) / "vortex" / (c.name + "_runs.csv");
       fs::create_directories(csv.parent_path());
