@@ -60,15 +60,24 @@ PlotOptions readPlot(const std::vector<std::string>& words) {
   return options;
 }
 
-/// The view of the examples: the lower part of the tank from the front and a little above.
-vis::View exampleView(const std::string& title, int width, int height) {
+/// The far half of the grains from the front and a little above, without walls: what the bed is like inside.
+vis::View exampleView(const Frame& frame, const std::string& title) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : frame.position)
+    box.extend(x);
+  const Vec3 middle = box.center(), size = box.sizes();
   vis::View view;
   view.title = title;
-  view.camera.preset = "fit";
-  view.axes = view.timeStamp = view.scaleBar = view.legend = false;
-  view.colouring.quantity = "speed";
-  view.width = width;
-  view.height = height;
+  view.width = 600;
+  view.height = 430;
+  view.walls = view.axes = view.box = view.timeStamp = view.scaleBar = view.legend = false;
+  const double high = std::max(1.4 * size.z(), std::max(size.x(), size.y()) * view.height / view.width);
+  view.camera.preset.clear();
+  view.camera.orthographic = true;
+  view.camera.orthographicHeight = 1.3 * high;
+  view.camera.target = middle;
+  view.camera.position = middle + 10 * high * Vec3(0, -1, 0.5);
+  view.clips = {{middle, Vec3::UnitY()}};
   return view;
 }
 
@@ -92,9 +101,8 @@ int plotSweep(const SweepArguments& a) {
   if (options.pictures)
     for (const auto& example : diagram.examples) {
       const FramePtr frame = table.lastFrame(example.run);
-      if (frame)
-        examples.push_back(
-            {frame, exampleView(fmt::format("{}: {}", example.name, example.label), 460, 330)});
+      if (frame && frame->size() > 0)
+        examples.push_back({frame, exampleView(*frame, fmt::format("{}: {}", example.name, example.label))});
     }
   if (examples.empty())
     vis::writeChart(renderer, diagram.chart, picture);
