@@ -155,3 +155,61 @@ TEST_CASE("sample rotating_drum: the drum's torque is what its power and its rat
   const double angle = turned, r = 0.03;
   CHECK(lifter.shape->bounds().max().z() == Approx(-r * std::sin(angle)).epsilon(0.02));
 }
+
+TEST_CASE("sample vortex_tank: beads float over the floor where the wind carries them", "[samples]") {
+  const Outcome run = runQuickly("vortex_tank");
+  CHECK(run.summary.grains == 256);
+  // Each shielding bead lowers the height at which wind and weight balance by ln 2 / beta = 28 mm from the
+  // -83.6 mm of a lone bead; they begin above the floor's -200 mm and none gets far from these heights.
+  double mean = 0;
+  for (const Vec3& x : run.last->position) {
+    CHECK(x.head<2>().norm() < 0.06);
+    CHECK(x.z() > -0.2);
+    mean += x.z() / 256;
+  }
+  CHECK(mean < 0);
+  CHECK(mean > -0.2);
+}
+
+TEST_CASE("sample vortex_spout: the bed turns with the fluid's sense of turning", "[samples]") {
+  const Outcome run = runQuickly("vortex_spout");
+  CHECK(run.summary.grains == 256);
+  const auto& v = run.last->vector(quantity::velocity);
+  double momentum = 0, inertia = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Vec3& x = run.last->position[i];
+    momentum += x.x() * v[i].y() - x.y() * v[i].x();
+    inertia += x.head<2>().squaredNorm();
+  }
+  CHECK(momentum / inertia < -2); // clockwise, of 10.4 rad/s
+  CHECK(momentum / inertia > -10.4);
+}
+
+// The end states of seven experiments; the exact cases are in tests/sim/fields.
+TEST_CASE("sample vortex_manual: thirteen beads end as they should", "[samples]") {
+  const Outcome run = runQuickly("vortex_manual");
+  REQUIRE(run.last->position.size() == 13);
+  const auto& v = run.last->vector(quantity::velocity);
+  const auto& w = run.last->vector(quantity::spin);
+  for (int pair = 0; pair < 6; ++pair) { // all pairs are point reflections of themselves
+    CHECK((v[2 * pair] + v[2 * pair + 1]).head<2>().norm() < 1e-9);
+    CHECK(std::abs(v[2 * pair].z()) < 1e-12);
+  }
+  CHECK(v[0].x() < -0.5); // head on: back, straight, without spin
+  CHECK(v[0].y() == 0);
+  CHECK(w[0].norm() == 0);
+  CHECK(v[2].x() == Approx(v[0].x()).epsilon(1e-9)); // spins that roll on each other change nothing
+  CHECK(w[2].z() == Approx(1000));
+  const Vec3 across = Vec3(1, -1, 0).normalized(); // equal spins: thrown aside, and slower spins
+  CHECK(std::abs(v[4].dot(across)) > 0.3);
+  CHECK(w[4].z() < 950);
+  CHECK(w[4].z() == Approx(w[5].z()));
+  CHECK(v[6].y() > 0.05); // glancing
+  CHECK(w[6].z() == Approx(w[7].z()));
+  CHECK(w[6].norm() > 1);
+  CHECK(v[8].x() == Approx(v[10].x()).epsilon(0.05)); // from the wall: straight, or aside with spin
+  CHECK(std::abs(v[8].y()) < 1e-9);
+  CHECK(std::abs(v[10].y()) > 0.3);
+  CHECK(w[10].z() < 950);
+  CHECK(w[12].norm() > 1); // the shot along the wall begins to roll
+}

@@ -14,6 +14,10 @@ namespace sandglass {
 
 namespace {
 
+constexpr double seriesEnd = 0.1;
+constexpr double inverses[] = {1.0,     1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4,  1.0 / 5,
+                               1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10, 1.0 / 11};
+
 class SpinDrag final : public Field {
 public:
   explicit SpinDrag(const Parameters& p) : explicit_(p.text("update") == "explicit") {
@@ -27,19 +31,32 @@ public:
 
   void apply(FieldBlock& b, double factor) const override {
     const double given = factor * given_, stokes = factor * stokes_, rate = 2.5 * b.dt;
-    const bool plain = explicit_;
+    FieldBlock::Column q, share;
     SANDGLASS_GRAINS(i) {
       const double r = b.radius[i];
-      const double q = (given + stokes * (r * r * r)) * rate * b.inverseMass[i] / (r * r);
-      const double near = 1.0 - q * (1.0 / 2) * (1.0 - q * (1.0 / 3) * (1.0 - q * (1.0 / 4)));
-      const double far = (1.0 - exponential(-q)) / (q > 1e-3 ? q : 1.0);
-      const double share = q > 1e-3 ? far : near; // (1 - e^-q) / q
+      q[i] = (given + stokes * (r * r * r)) * rate * b.inverseMass[i] / (r * r);
+      // (1 - e^-q) / q by its series: to 1e-16 for small q, where the difference would lose digits
+      const double x = -q[i];
+      double sum = 1.0;
+      for (int k = 11; k >= 2; --k)
+        sum = 1.0 + sum * (x * inverses[k]);
+      share[i] = sum;
+    }
+    bool far = false;
+    for (int i = 0; i < FieldBlock::capacity; ++i)
+      far = far || q[i] > seriesEnd;
+    if (far) SANDGLASS_GRAINS(i) {
+        const double exact = (1.0 - exponential(-q[i])) / (q[i] > seriesEnd ? q[i] : 1.0);
+        share[i] = q[i] > seriesEnd ? exact : share[i];
+      }
+    const bool plain = explicit_;
+    SANDGLASS_GRAINS(i) {
       // The source turns with the contacts' torque first and damps what comes out: 1 - q of it.
-      const double keep = plain ? 1.0 - q : share, damp = plain ? q : q * share;
-      const double back = 1.0 / (rate * b.inverseMass[i]);
-      b.turnX[i] = keep * b.turnX[i] - damp * b.rollX[i] * back;
-      b.turnY[i] = keep * b.turnY[i] - damp * b.rollY[i] * back;
-      b.turnZ[i] = keep * b.turnZ[i] - damp * b.rollZ[i] * back;
+      const double keep = plain ? 1.0 - q[i] : share[i], damp = plain ? q[i] : q[i] * share[i];
+      const double back = damp / (rate * b.inverseMass[i]);
+      b.turnX[i] = keep * b.turnX[i] - b.rollX[i] * back;
+      b.turnY[i] = keep * b.turnY[i] - b.rollY[i] * back;
+      b.turnZ[i] = keep * b.turnZ[i] - b.rollZ[i] * back;
     }
   }
 

@@ -41,6 +41,12 @@ Parameters usual(const LawKind& kind, int variant) {
   offer("surface_energy", 0.1);
   if (kind.name == "jkr" || kind.name == "dmt") p.set("restitution", 0.9);
   offer("lifshitz_constant", 1e-12);
+  if (kind.name == "rice" && kind.role == LawRole::normal) {
+    offer("dissipation_time", 1e-5);
+    if (other) p.set("radius", std::string("doubled"));
+    if (other) p.set("overlap_rate", std::string("difference"));
+  }
+  offer("slip_rate", other ? 3000.0 : 300.0); // slip = "spin" keeps neither energy nor symmetry: fields tests
   if (kind.role == LawRole::gap) {
     offer("smallest_separation", 2e-6);
     offer("cutoff", 1e-4);
