@@ -213,3 +213,17 @@ TEST_CASE("sample vortex_manual: thirteen beads end as they should", "[samples]"
   CHECK(w[10].z() < 950);
   CHECK(w[12].norm() > 1); // the shot along the wall begins to roll
 }
+
+// That its surface is the paraboloid of a liquid takes the whole run: validate vortex.
+TEST_CASE("sample vortex_paraboloid: the bed turns as the fluid does", "[samples]") {
+  const Outcome run = runQuickly("vortex_paraboloid");
+  CHECK(run.summary.grains == 300);
+  const auto& v = run.last->vector(quantity::velocity);
+  double momentum = 0, inertia = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Vec3& x = run.last->position[i];
+    momentum += x.x() * v[i].y() - x.y() * v[i].x();
+    inertia += x.head<2>().squaredNorm();
+  }
+  CHECK(momentum / inertia == Approx(16).epsilon(0.1));
+}

@@ -24,6 +24,9 @@ std::string judgeCoupled(const analysis::SweepTable& table, Report& report);
 std::string judgeDrags(const analysis::SweepTable& table, Report& report);
 std::string judgeVolume(const analysis::SweepTable& table, Report& report);
 
+/// The sample vortex_paraboloid, no sweep.
+std::string judgeParaboloid(Report& report);
+
 /// Runs of a sweep by the values of its axes, seeds together.
 class Cells {
 public:

@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> names;
   bool quick = false, judgeOnly = false;
   app.add_option("folder", folder, "where results go")->required();
-  app.add_option("--case", names, "only these cases: speeds, grid, coupled, drags, volume");
+  app.add_option("--case", names, "only these cases: speeds, grid, coupled, drags, volume, paraboloid");
   app.add_option("--work", work, "where the tables of the sweeps are kept");
   app.add_flag("--quick", quick, "runs of a second: shows that everything works");
   app.add_flag("--judge", judgeOnly, "run nothing, judge the runs that are there");
@@ -87,6 +87,9 @@ int main(int argc, char** argv) {
       fs::create_directories(csv.parent_path());
       std::ofstream(csv) << table.csv();
     }
+    const bool wanted = names.empty() || std::find(names.begin(), names.end(), "paraboloid") != names.end();
+    if (wanted && !quick && !judgeOnly)
+      pages += fmt::format("\n## A turning bed\n\n{}\n", judgeParaboloid(report));
     if (quick)
       for (Row& row : report.rows)
         row.skipped = "a quick look";
