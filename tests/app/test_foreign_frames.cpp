@@ -72,11 +72,11 @@ TEST_CASE("LIGGGHTS: the dump of a hopper with its walls; the same frame as lega
   settings.timeStep = 1e-5;
   settings.walls = {data + "liggghts/funnel.toml"};
   const auto source = opened("liggghts/hopper.dump.gz", settings);
-  REQUIRE(source->size() == 24);
-  CHECK(source->time(10) == Approx(0.15));
-  const FramePtr full = source->load(7), empty = source->load(23);
+  REQUIRE(source->size() == 36);
+  CHECK(source->time(15) == Approx(0.15));
+  const FramePtr full = source->load(14), empty = source->load(35);
   CHECK(full->size() == 250);
-  CHECK(empty->size() == 154); // the last rows of the file
+  CHECK(empty->size() == 153); // the last rows of the file
   CHECK(full->scalar(quantity::radius)[0] == Approx(0.0012));
   REQUIRE(full->walls.size() == 2);
   CHECK(full->walls[1].active);

@@ -8,6 +8,7 @@
 #include "analysis/voronoi.h"
 #include "sim/base/random.h"
 #include "tests/analysis/lattices.h"
+#include "tests/validate/analysis/lammps_frames.h"
 #include "tests/validate/analysis/state_scenes.h"
 #include "tests/validate/verdicts.h"
 
@@ -243,9 +244,10 @@ int main(int argc, char** argv) {
     lattices(report);
     uniformPoints(report);
     otherProgram(report);
+    lammpsFrames(report);
     stateMap(report, quick ? std::vector<std::uint64_t>{1} : std::vector<std::uint64_t>{1, 2, 3});
     writeReport(report, folder, "analysis", "The analyses against what is known",
-                "Exact values of lattices, random points in a container, voro++'s own program, and the state "
+                "Exact values of lattices, random points in a container, voro++'s own program, LAMMPS' computes on the same frame, and the state "
                 "map on small runs "
                 "whose state is known: its rows are the confusion matrix. The sheared grains are those of "
                 "layers whose inertial "
