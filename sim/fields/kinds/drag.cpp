@@ -24,6 +24,8 @@ namespace sandglass {
 namespace {
 
 class Drag final : public Field {
+  using Column = FieldBlock::Column;
+
 public:
   explicit Drag(const Parameters& p)
       : strength_(p.number("strength")), decay_(p.number("decay")), reference_(p.number("reference")) {
@@ -95,7 +97,7 @@ private:
   }
 
   template <bool componentwise, Acts acts> void act(FieldBlock& b, const FieldBlock::Column& scale) const {
-    const double nx = axis_.x(), ny = axis_.y(), nz = axis_.z(), dt = b.dt;
+    const double nx = axis_.x(), ny = axis_.y(), nz = axis_.z();
     FieldBlock::Column ux, uy, uz, qx, qy, qz; // relative velocity and acceleration, the parts that count
     SANDGLASS_GRAINS(i) {
       ux[i] = b.vx[i] - b.flowX[i];
@@ -114,53 +116,53 @@ private:
         qz[i] = acts == Acts::along ? q * nz : qz[i] - q * nz;
       }
     }
-    if constexpr (componentwise) {
-      FieldBlock::Column g;
-      SANDGLASS_GRAINS(i) g[i] = std::abs(ux[i]);
-      slow(b.ax, qx, ux, g, b, scale, dt);
-      SANDGLASS_GRAINS(i) g[i] = std::abs(uy[i]);
-      slow(b.ay, qy, uy, g, b, scale, dt);
-      SANDGLASS_GRAINS(i) g[i] = std::abs(uz[i]);
-      slow(b.az, qz, uz, g, b, scale, dt);
-    } else {
-      FieldBlock::Column g;
-      SANDGLASS_GRAINS(i) g[i] = std::sqrt(ux[i] * ux[i] + uy[i] * uy[i] + uz[i] * uz[i]);
-      slow(b.ax, qx, ux, g, b, scale, dt);
-      slow(b.ay, qy, uy, g, b, scale, dt);
-      slow(b.az, qz, uz, g, b, scale, dt);
+    Column speed, rest, pull;
+    const auto slow = [&](Column& a, const Column& q, const Column& u) {
+      if constexpr (componentwise) {
+        SANDGLASS_GRAINS(i) speed[i] = std::abs(u[i]);
+        weigh(speed, b, scale, rest, pull);
+      }
+      SANDGLASS_GRAINS(i) a[i] -= rest[i] * q[i] + pull[i] * u[i];
+    };
+    if constexpr (!componentwise) {
+      SANDGLASS_GRAINS(i) speed[i] = std::sqrt(ux[i] * ux[i] + uy[i] * uy[i] + uz[i] * uz[i]);
+      weigh(speed, b, scale, rest, pull);
     }
+    const bool upright = nx == 0.0 && ny == 0.0; // then some components have no part that counts
+    if (!(acts == Acts::along && upright)) {
+      slow(b.ax, qx, ux);
+      slow(b.ay, qy, uy);
+    }
+    if (!(acts == Acts::across && upright)) slow(b.az, qz, uz);
   }
 
-  /// Adds the drag to one component of the acceleration; q and u are the parts of it that count.
-  void slow(FieldBlock::Column& a, const FieldBlock::Column& q, const FieldBlock::Column& u,
-            const FieldBlock::Column& speed, const FieldBlock& b, const FieldBlock::Column& scale,
-            double dt) const {
+  /// The change of acceleration is -(rest a + pull u).
+  void weigh(const Column& speed, const FieldBlock& b, const Column& scale, Column& rest,
+             Column& pull) const {
+    const double dt = b.dt;
+    Column g;
     if (schillerNaumann_) {
       const double stokes = 3.0 * std::numbers::pi * viscosity_, perSpeed = density_ / viscosity_,
                    newton = 0.44 * 0.125 * std::numbers::pi * density_;
       SANDGLASS_GRAINS(i) {
         const double D = 2.0 * b.radius[i], re = perSpeed * speed[i] * D;
-        const double positive = re > 1e-300 ? re : 1e-300;
-        const double power = powerOfTwo(0.687 * binaryLogarithm(positive));
-        const double slow = stokes * D * (1.0 + 0.15 * power), fast = newton * D * D * speed[i];
-        add(a[i], q[i], u[i], scale[i] * (re < 1000.0 ? slow : fast), b.inverseMass[i], dt);
+        const double power = powerOfTwo(0.687 * binaryLogarithm(re > 1e-300 ? re : 1e-300));
+        const double thick = stokes * D * (1.0 + 0.15 * power), thin = newton * D * D * speed[i];
+        g[i] = scale[i] * (re < 1000.0 ? thick : thin);
       }
     } else {
       const double c1 = linear_, c1area = area_, c2 = quadratic_;
       SANDGLASS_GRAINS(i) {
         const double D = 2.0 * b.radius[i];
-        const double g = c1 * D + (c1area + c2 * speed[i]) * (D * D);
-        add(a[i], q[i], u[i], scale[i] * g, b.inverseMass[i], dt);
+        g[i] = scale[i] * (c1 * D + (c1area + c2 * speed[i]) * (D * D));
       }
     }
-  }
-
-  [[gnu::always_inline]] static void add(double& a, double q, double u, double g, double inverseMass,
-                                         double dt) {
-    const double rate = g * inverseMass, k = rate * dt;
-    const double inverse = 1.0 / (1.0 + k + 0.5 * k * k);
-    const double share = (1.0 + 0.5 * k) * inverse, rest = 0.5 * k * (1.0 + k) * inverse; // they sum to 1
-    a -= rest * q + share * rate * u;
+    SANDGLASS_GRAINS(i) {
+      const double rate = g[i] * b.inverseMass[i], k = rate * dt;
+      const double inverse = 1.0 / (1.0 + k + 0.5 * k * k);
+      rest[i] = 0.5 * k * (1.0 + k) * inverse; // 1 - (1 - e^-k) / k
+      pull[i] = (1.0 + 0.5 * k) * inverse * rate;
+    }
   }
 
   double strength_, decay_, reference_;
