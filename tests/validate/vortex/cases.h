@@ -42,7 +42,7 @@ public:
     return row.text(table_.column(column));
   }
   double mean(const std::vector<const analysis::SweepRow*>& rows, const std::string& column) const;
-  /// The commonest number of a column among these rows; the smallest among equals; -1 without rows.
+  /// The commonest number of a column among these rows, the first seed's among equals; -1 without rows.
   int commonest(const std::vector<const analysis::SweepRow*>& rows, const std::string& column) const;
   std::string commonestText(const std::vector<const analysis::SweepRow*>& rows,
                             const std::string& column) const;

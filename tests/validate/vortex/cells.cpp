@@ -39,8 +39,12 @@ int Cells::commonest(const std::vector<const SweepRow*>& rows, const std::string
   for (const auto* row : rows)
     if (const double x = number(*row, column); !std::isnan(x)) ++counts[static_cast<int>(x)];
   int best = -1, most = 0;
-  for (const auto& [value, count] : counts)
-    if (count > most) best = value, most = count;
+  for (const auto* row : rows) { // in the order of the seeds
+    const double x = number(*row, column);
+    if (std::isnan(x) || counts[static_cast<int>(x)] <= most) continue;
+    best = static_cast<int>(x);
+    most = counts[best];
+  }
   return best;
 }
 

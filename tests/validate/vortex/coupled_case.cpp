@@ -31,9 +31,9 @@ double coreBorder(const Cells& cells, double radius, const char* axis) {
 
 std::string judgeCoupled(const analysis::SweepTable& table, Report& report) {
   const Cells cells(table);
-  std::string page =
-      fmt::format("{} runs, {} failed. Codes of three seeds and median empty core / R:\n\n| r [mm] |",
-                  cells.rows().size(), cells.failed());
+  std::string page = fmt::format(
+      "{} of {} runs done, {} failed. Codes of the seeds and median empty core / R:\n\n| r [mm] |",
+      cells.at({}).size(), cells.rows().size(), cells.failed());
   for (const double ratio : ratios)
     page += fmt::format(" {} Ω_c |", ratio);
   page += "\n|---|---|---|---|---|---|---|\n";
@@ -110,8 +110,9 @@ std::string judgeCoupled(const analysis::SweepTable& table, Report& report) {
 
 std::string judgeVolume(const analysis::SweepTable& table, Report& report) {
   const Cells cells(table);
-  std::string page = fmt::format("{} runs, {} failed. Commonest of our states, with the empty core / R:\n",
-                                 cells.rows().size(), cells.failed());
+  std::string page =
+      fmt::format("{} of {} runs done, {} failed. Commonest of our states, with the empty core / R:\n",
+                  cells.at({}).size(), cells.rows().size(), cells.failed());
   for (const double density : {5000.0, 7500.0, 10000.0}) {
     page += fmt::format("\nDensity {} kg/m³\n\n| r [mm] | grains |", density);
     for (const double ratio : {0.5, 0.75, 1.0, 1.25, 1.5})

@@ -35,11 +35,12 @@ double border(const Cells& cells, double radius, int generation) {
 
 std::string judgeDrags(const analysis::SweepTable& table, Report& report) {
   const Cells cells(table);
-  std::string page = fmt::format(
-      "{} runs, {} failed. Rotation / critical rotation at which the empty core is R / 3, and mean "
-      "time of settling (our rules):\n\n| r [mm] | Ω_c √(R/g) | linear | quadratic | both | "
-      "settled, linear [s] | quadratic | both |\n|---|---|---|---|---|---|---|---|\n",
-      cells.rows().size(), cells.failed());
+  std::string page =
+      fmt::format("{} of {} runs done, {} failed. Rotation / critical rotation at which the empty core is R "
+                  "/ 3, and mean "
+                  "time of settling (our rules):\n\n| r [mm] | Ω_c √(R/g) | linear | quadratic | both | "
+                  "settled, linear [s] | quadratic | both |\n|---|---|---|---|---|---|---|---|\n",
+                  cells.at({}).size(), cells.rows().size(), cells.failed());
   std::array<std::array<double, 3>, 5> settled{};
   for (std::size_t k = 0; k < 5; ++k) {
     const double r = radii[k], scaled = 4 * std::sqrt(std::sqrt(2.0) * 256 / M_PI) * std::pow(r / 60, 1.5);

@@ -126,10 +126,10 @@ void rotations(const Cells& cells, Report& report) {
 std::string judgeGrid(const analysis::SweepTable& table, Report& report) {
   const Cells cells(table);
   int agree = 0, single = 0, runs = 0;
-  std::string page =
-      fmt::format("{} runs, {} failed. Codes of three seeds in each cell, the re-run's in brackets where "
-                  "the commonest is another:\n\n| r [mm] |",
-                  cells.rows().size(), cells.failed());
+  std::string page = fmt::format(
+      "{} of {} runs done, {} failed. Codes of the seeds in each cell, the re-run's in brackets where "
+      "the commonest is another:\n\n| r [mm] |",
+      cells.at({}).size(), cells.rows().size(), cells.failed());
   for (int c = 0; c < columns; ++c)
     page += fmt::format(" {} |", rotationOf(c));
   page += "\n|---|" + std::string("---|---|---|---|---|---|---|---|---|\n");

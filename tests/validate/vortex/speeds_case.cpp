@@ -25,8 +25,9 @@ std::string judgeSpeeds(const analysis::SweepTable& table, Report& report) {
                 sum / static_cast<double>(values.size()), halfWidth(values), e.thesis, 0.10,
                 fmt::format("Rice 2012, table 1; re-run {}", e.again));
   }
-  return fmt::format("{} runs with every defect of the source (`preset = \"rice2012\"`), {} failed.",
-                     cells.rows().size(), cells.failed());
+  return fmt::format(
+      "{} of {} runs done with every defect of the source (`preset = \"rice2012\"`), {} failed.",
+      cells.at({}).size(), cells.rows().size(), cells.failed());
 }
 
 } // namespace sandglass::validate
