@@ -122,7 +122,7 @@ std::string judgeVolume(const analysis::SweepTable& table, Report& report) {
       page += fmt::format("| {} | {} |", radius, std::round(256 * std::pow(4 / radius, 3)));
       for (const double ratio : {0.5, 0.75, 1.0, 1.25, 1.5}) {
         const auto cell = cells.at({{"r", radius}, {"ratio", ratio}, {"density", density}});
-        page += cell.empty() ? " failed |"
+        page += cell.empty() ? " - |"
                              : fmt::format(" {} {:.2f} |", cells.commonestText(cell, "state"),
                                            cells.mean(cell, "core"));
       }
