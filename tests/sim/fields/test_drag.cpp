@@ -54,7 +54,7 @@ Vec3 flowAt(const std::string& kind, const Parameters& p, const Vec3& place, dou
 
 } // namespace
 
-// Case R15 of the vortex specification; formulas: m v' = -c1 v - c2 v^2.
+// m v' = -c1 v - c2 v^2.
 TEST_CASE("a grain in still air slows down as its law of drag says", "[fields]") {
   VortexCase setup;
   setup.radius = 2e-3;
@@ -95,7 +95,7 @@ TEST_CASE("Schiller and Naumann's drag by hand", "[fields]") {
         Approx(0.44 * 0.5 * rho * std::numbers::pi / 4 * D * D * v * v).epsilon(1e-6));
 }
 
-// R16: the quotient of the two parts is 1419 v D (0.22 / 1.55e-4 = 1419.35).
+// the quotient of the two parts is 1419 v D (0.22 / 1.55e-4 = 1419.35).
 TEST_CASE("quadratic over linear drag at the speeds of the thesis", "[fields]") {
   for (const auto& [r, v, expected] : {std::tuple{2e-3, 1.188, 6.74},
                                        {2e-3, 4.101, 23.3},
@@ -114,7 +114,7 @@ TEST_CASE("quadratic over linear drag at the speeds of the thesis", "[fields]") 
   }
 }
 
-// R19, and the negative case: speeds taken component by component are anisotropic.
+// and the negative case: speeds taken component by component are anisotropic.
 TEST_CASE("drag is the same in all directions, unless it is told to be wrong", "[fields]") {
   VortexCase setup;
   setup.timeStep = 1e-9; // so that forces are those at the velocity given
@@ -139,7 +139,7 @@ TEST_CASE("drag is the same in all directions, unless it is told to be wrong", "
   CHECK((across + along - forceOn(setup, v)).norm() < 1e-9 * along.norm());
 }
 
-// R17: lift 100 (c1 v + c2 v^2) exp(-beta (z - z0)) against the weight.
+// lift 100 (c1 v + c2 v^2) exp(-beta (z - z0)) against the weight.
 TEST_CASE("a lone grain hovers and swings in the wind as computed", "[fields]") {
   VortexCase setup;
   setup.gravity = thesisGravity;
@@ -150,7 +150,7 @@ TEST_CASE("a lone grain hovers and swings in the wind as computed", "[fields]") 
       dragTable("law = \"both\"\nacts = \"along\"\nstrength = 100\ndecay = \"25 1/m\"\nreference = "
                 "\"-0.13333333333333333 m\"\n" +
                 linear + quadratic);
-  // Heights of the specification for the true mass (2, 3, 4, 5, 6 mm).
+  // Heights computed apart, for the true mass (2, 3, 4, 5, 6 mm).
   const double heights[] = {-0.0554, -0.0719, -0.0836, -0.0926, -0.1000};
   for (int k = 0; k < 5; ++k) {
     setup.radius = (2 + k) * 1e-3;
@@ -189,13 +189,13 @@ TEST_CASE("a lone grain hovers and swings in the wind as computed", "[fields]") 
   CHECK(tops[2] / tops[0] == Approx(std::exp(-gamma * period)).epsilon(0.01));
 }
 
-// R13, and with steps that a plain first-order decay would not survive.
+// and with steps that a plain first-order decay would not survive.
 TEST_CASE("a spinning grain is slowed by the fluid, however small it is", "[fields]") {
   VortexCase setup;
   setup.friction = R"({ law = "rice", slip_rate = "0 1/s", friction = 0 })"; // so that grains turn
   setup.timeStep = 1e-4;
   setup.fields = "[[field]]\nname = \"spin\"\nkind = \"spin_drag\"\ncoefficient = \"6e-8 N*m*s\"\n";
-  const double rates[] = {149.2, 19.65, 4.663, 1.528, 0.614}; // of the specification, for 0.75 of the mass
+  const double rates[] = {149.2, 19.65, 4.663, 1.528, 0.614}; // computed apart, for 0.75 of the mass
   for (int k = 0; k < 5; ++k) {
     setup.radius = (2 + k) * 1e-3;
     setup.density = 7500;

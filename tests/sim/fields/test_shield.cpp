@@ -1,4 +1,4 @@
-// R18: who shields whom, by hand and by brute force.
+// who shields whom, by hand and by brute force.
 #include "sim/base/random.h"
 #include "sim/fields/shield_counts.h"
 #include "tests/sim/fields/vortex_case.h"

@@ -1,4 +1,4 @@
-// Contact and spin cases of the vortex specification: collisions, friction, walls.
+// Contacts and spins of soft beads as in the vortex tank: collisions, friction, walls.
 #include "tests/sim/fields/vortex_case.h"
 
 #include <catch2/catch.hpp>
@@ -58,7 +58,7 @@ Vec3 angularMomentum(const VortexCase& setup, const std::vector<GrainSeed>& bead
 
 } // namespace
 
-// R1: xi = (5 m v^2 / (4 kappa))^(2/5), t_c = 2.943 xi / v; the listing's kappa and mass give 2.635 ms and
+// xi = (5 m v^2 / (4 kappa))^(2/5), t_c = 2.943 xi / v; the listing's kappa and mass give 2.635 ms and
 // 0.448 r.
 TEST_CASE("an elastic Hertz collision goes as deep and lasts as long as theory says", "[vortex]") {
   VortexCase setup;
@@ -80,7 +80,7 @@ TEST_CASE("an elastic Hertz collision goes as deep and lasts as long as theory s
   CHECK(listed.deepest == Approx(0.448 * setup.radius).epsilon(5e-3));
 }
 
-// R2: computed values of the specification, for the law as the text has it and as the listing does.
+// Values integrated apart, for the law as the text has it and as the listing does.
 TEST_CASE("restitution of the viscoelastic law falls with speed as computed", "[vortex]") {
   VortexCase setup;
   setup.radius = 2e-3;
@@ -94,8 +94,8 @@ TEST_CASE("restitution of the viscoelastic law falls with speed as computed", "[
     CHECK(collide(setup, speeds[k]).restitution == Approx(listing[k]).epsilon(0.01));
 }
 
-// R3: Pade approximant of Mueller and Poeschel (Phys. Rev. E 84, 021302 (2011)) with the constants of the
-// specification.
+// Pade approximant of Mueller and Poeschel (Phys. Rev. E 84, 021302 (2011)) with the constants for
+// A as here.
 TEST_CASE("restitution of the viscoelastic law agrees with its Pade approximant", "[vortex]") {
   VortexCase setup;
   setup.timeStep = 2e-6;
@@ -111,7 +111,7 @@ TEST_CASE("restitution of the viscoelastic law agrees with its Pade approximant"
     }
 }
 
-TEST_CASE("spins that roll on each other deflect nothing", "[vortex]") { // R5
+TEST_CASE("spins that roll on each other deflect nothing", "[vortex]") {
   VortexCase setup;
   setup.friction = rough;
   const auto pair = after(setup,
@@ -125,7 +125,7 @@ TEST_CASE("spins that roll on each other deflect nothing", "[vortex]") { // R5
   }
 }
 
-// R6: the slip 2 r w is stopped by an impulse 2/7 r w m on each, or friction reaches its limit first.
+// the slip 2 r w is stopped by an impulse 2/7 r w m on each, or friction reaches its limit first.
 TEST_CASE("aligned spins throw a pair apart sideways, mirror-like", "[vortex]") {
   for (const double spin : {20.0, 1000.0}) {
     VortexCase setup;
@@ -146,7 +146,7 @@ TEST_CASE("aligned spins throw a pair apart sideways, mirror-like", "[vortex]") 
   }
 }
 
-TEST_CASE("a spinning bead that falls on a resting one sends both to opposite sides", "[vortex]") { // R7
+TEST_CASE("a spinning bead that falls on a resting one sends both to opposite sides", "[vortex]") {
   VortexCase setup;
   setup.friction = rough;
   setup.gravity = thesisGravity;
@@ -161,7 +161,7 @@ TEST_CASE("a spinning bead that falls on a resting one sends both to opposite si
   CHECK(std::abs(momentum(setup, pair).x()) < 1e-10 * setup.mass());
 }
 
-// R8 and R9: chord after chord along the wall; with friction in the end rolling, 5/7 of the speed left.
+// chord after chord along the wall; with friction in the end rolling, 5/7 of the speed left.
 TEST_CASE("shots along the wall of the tank slide for ever without friction and roll with it", "[vortex]") {
   VortexCase setup;
   setup.walls = VortexCase::tank();
@@ -193,7 +193,7 @@ TEST_CASE("shots along the wall of the tank slide for ever without friction and 
   }
 }
 
-// R10: impulse of friction at the floor leaves (5 v - 2 r w) / 7.
+// impulse of friction at the floor leaves (5 v - 2 r w) / 7.
 TEST_CASE("backspin brings a bead back from the floor when it is strong enough", "[vortex]") {
   VortexCase setup;
   setup.gravity = thesisGravity;
@@ -210,7 +210,7 @@ TEST_CASE("backspin brings a bead back from the floor when it is strong enough",
   }
 }
 
-TEST_CASE("a cradle hands on the speed, less what each collision takes", "[vortex]") { // R11
+TEST_CASE("a cradle hands on the speed, less what each collision takes", "[vortex]") {
   for (const double dissipation : {0.0, 1e-4}) {
     VortexCase setup;
     setup.dissipation = dissipation;
@@ -229,7 +229,7 @@ TEST_CASE("a cradle hands on the speed, less what each collision takes", "[vorte
   }
 }
 
-TEST_CASE("a glancing pair keeps its momentum and reflects at the line of centres", "[vortex]") { // R12
+TEST_CASE("a glancing pair keeps its momentum and reflects at the line of centres", "[vortex]") {
   VortexCase setup;
   setup.dissipation = 0;
   setup.timeStep = 2e-7;
@@ -246,7 +246,7 @@ TEST_CASE("a glancing pair keeps its momentum and reflects at the line of centre
   CHECK(pair[0].velocity.norm() == Approx(1).epsilon(1e-3));
 }
 
-TEST_CASE("a box of elastic beads keeps its energy", "[vortex]") { // R14
+TEST_CASE("a box of elastic beads keeps its energy", "[vortex]") {
   VortexCase setup;
   setup.dissipation = 0;
   setup.gravity = thesisGravity;

@@ -45,7 +45,7 @@ TEST_CASE("a vortex tank gives the same bits with any number of threads and acro
   }
 }
 
-// R22.
+// As the source places its beads.
 TEST_CASE("the random start overlaps nowhere, lies in the tank and begins anew when it gets stuck",
           "[vortex]") {
   const Scene scene = tank();
@@ -158,7 +158,7 @@ TEST_CASE("the preset rice2012 fills in every defect by name, and what a scene s
   CHECK_THROWS(tank({"preset=\"rice2013\""}));
 }
 
-// The specification works out by hand what two of the defects do.
+// Worked out by hand for two of the defects.
 TEST_CASE("the defects do what was found of them", "[vortex]") {
   VortexCase setup;
   setup.preset = "rice2012";
