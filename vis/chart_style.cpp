@@ -26,7 +26,7 @@ SeriesStyle pointStyle(std::size_t kind) {
 } // namespace
 
 SeriesStyle styleOf(const analysis::Series& series, std::size_t index) {
-  if (series.ring) return {{40, 40, 40}, vtkPen::NO_PEN, vtkPlotPoints::CIRCLE, 16};
+  if (series.ring) return {{185, 185, 185}, vtkPen::NO_PEN, vtkPlotPoints::CIRCLE, 18};
   if (series.scatter) return pointStyle(index == 0 ? 0 : index - 1);
   static constexpr Rgb colours[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115}, {204, 121, 167},
                                     {230, 159, 0}, {86, 180, 233}, {60, 60, 60}};
