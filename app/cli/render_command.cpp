@@ -57,8 +57,18 @@ void addRender(CLI::App& app, Action& action) {
       ->type_name("VECTOR");
   command->add_option("--field", o.field, "coarse-grained field (VTI) to lay a slice through")
       ->type_name("FILE.vti");
-  command->add_option("--slice", o.slice, "array of the field to colour the slice by (default: the first)")
+  command
+      ->add_option(
+          "--slice", o.slice,
+          "slice through a field, coloured by this array of it (default: the first); without --field "
+          "each frame is coarse-grained: packing_fraction, velocity.z, ...")
       ->type_name("QUANTITY");
+  command->add_option("--tracks", o.tracks, "where these grains have been since the first frame, as lines")
+      ->delimiter(',')
+      ->type_name("ID,...");
+  command->add_option("--track-duration", o.trackDuration, "only so long back from each picture [s]")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("TIME");
   command->add_option("--turn", o.turn, "degrees that the camera goes round from one picture to the next")
       ->type_name("ANGLE");
   command->add_option("--size", o.size, "pixels: WxH, 720p, 1080p, 4k (default 1280x720)")->type_name("SIZE");

@@ -117,10 +117,9 @@ vis::View viewOf(const RenderOptions& options, const vis::View& base) {
     constexpr double small = 0.25; // grains that let the chains be seen
     if (options.viewFile.empty()) view.grainScale = small;
   }
-  if (!options.field.empty()) {
-    view.slice.shown = true;
-    if (!options.slice.empty()) view.slice.quantity = options.slice;
-  }
+  if (!options.field.empty() || !options.slice.empty()) view.slice.shown = true;
+  if (!options.slice.empty()) view.slice.quantity = options.slice;
+  if (!options.tracks.empty()) view.tracks = {options.tracks, options.trackDuration};
   for (const auto& clip : options.clips)
     attempt([&] { view.clips.push_back(clipOf(clip)); });
   // The same checks as for a file: size, preset, map.

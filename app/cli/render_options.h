@@ -5,6 +5,7 @@
 #include "vis/renderer.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +17,9 @@ struct RenderOptions {
   std::string folder, movie, reference, field;
   std::string viewFile, camera, colour, map, range, size, frames, select, arrows, slice, backend = "auto";
   std::vector<std::string> clips;
-  std::optional<double> at; ///< [s]
+  std::vector<std::int64_t> tracks; ///< ids of grains
+  double trackDuration = 0;         ///< [s]; 0: since the first frame
+  std::optional<double> at;         ///< [s]
   int every = 1;
   double framesPerSecond = 25, threshold = 0.001;
   double turn = 0;     ///< [deg]

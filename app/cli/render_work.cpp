@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 namespace sandglass::cli {
 
@@ -154,9 +155,8 @@ class Draughtsman {
 public:
   Draughtsman(const RenderOptions& options, vis::View view)
       : renderer_(backendOf(options.backend)), view_(std::move(view)), turn_(options.turn) {
-    if (options.field.empty()) return;
-    field_ = vis::readVtiField(options.field);
-    if (options.viewFile.empty()) showThroughMiddle();
+    if (!options.field.empty()) field_ = vis::readVtiField(options.field);
+    throughMiddle_ = options.viewFile.empty() && (field_ || !options.slice.empty());
   }
 
   struct Drawn {
@@ -165,6 +165,8 @@ public:
   };
   Drawn draw(const Task& task) {
     const FramePtr frame = load(*task.source, task.frame);
+    if (std::exchange(throughMiddle_, false) && !frame->fields.empty())
+      showThroughMiddle(frame->fields.front());
     vis::View view = view_;
     if (turn_ != 0 && count_ > 0) {
       if (!view.camera.preset.empty()) view.camera = firstCamera_;
@@ -185,12 +187,12 @@ public:
 
 private:
   /// The slice across the field's shortest side, and no grains in front of it.
-  void showThroughMiddle() {
-    const Vec3 size = field_->spacing.cwiseProduct(
-        Vec3(field_->points[0] - 1, field_->points[1] - 1, field_->points[2] - 1));
+  void showThroughMiddle(const FrameField& field) {
+    const Vec3 size =
+        field.spacing.cwiseProduct(Vec3(field.points[0] - 1, field.points[1] - 1, field.points[2] - 1));
     Eigen::Index shortest = 0;
     size.minCoeff(&shortest);
-    view_.slice.point = field_->origin + size / 2;
+    view_.slice.point = field.origin + size / 2;
     view_.slice.normal = Vec3::Unit(shortest);
     view_.grains = false;
   }
@@ -205,7 +207,8 @@ private:
 
   vis::Renderer renderer_;
   vis::View view_;
-  double turn_ = 0; ///< [deg] a picture
+  bool throughMiddle_ = false; ///< the first picture places the slice
+  double turn_ = 0;            ///< [deg] a picture
   int count_ = 0;
   vis::Camera firstCamera_;
   std::optional<FrameField> field_;

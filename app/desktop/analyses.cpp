@@ -20,6 +20,8 @@ namespace {
 using analysis::Curve;
 
 constexpr std::size_t mostFrames = 30; ///< of a run that an analysis in time looks at
+// States are told from windows of many frames: as many as small runs have, fewer of large ones.
+constexpr std::size_t mostGrainFrames = 3'000'000;
 constexpr std::int64_t panelPoints =
     20000; ///< for shells' volumes; a panel needs no more than its line is wide
 
@@ -37,10 +39,10 @@ Parameters knobsOf(const analysis::AnalysisKind& kind, const std::string& text) 
 }
 
 /// Frames for an analysis in time, evenly over the run up to the one that is shown.
-std::vector<FramePtr> framesOf(const AnalysisInput& in) {
+std::vector<FramePtr> framesOf(const AnalysisInput& in, std::size_t most = mostFrames) {
   std::vector<FramePtr> frames;
   if (!in.frames) return frames;
-  const std::size_t size = in.frames->size(), stride = 1 + size / mostFrames;
+  const std::size_t size = in.frames->size(), stride = 1 + size / most;
   for (std::size_t k = 0; k < size && in.frames->time(k) <= in.frame->time; k += stride)
     frames.push_back(in.frames->load(k));
   return frames;
@@ -155,6 +157,50 @@ analysis::Results contactNumbers(const AnalysisInput& in) {
   return alone(std::move(curve));
 }
 
+/// What the general map decides by: its knobs.
+analysis::Table thresholdsOf(const analysis::AnalysisKind& kind, const Parameters& knobs) {
+  analysis::Table table;
+  table.name = "state_thresholds";
+  table.title = "Thresholds of solid, liquid, gas";
+  table.columns = {{"value", ""}};
+  for (const auto& spec : kind.knobs) {
+    if (spec.type != ParameterType::number) continue;
+    table.rowNames.push_back(spec.name);
+    table.rows.push_back({knobs.number(spec.name)});
+    table.definition += (table.definition.empty() ? "" : "; ") + spec.name + ": " + spec.description;
+  }
+  return table;
+}
+
+/// The states of a bed in a vortex, where the scene has a tank, beside the general map.
+analysis::Results states(const AnalysisInput& in) {
+  const auto& general = analysis::analysisKind("state");
+  const auto& vortex = analysis::analysisKind("vortex_states");
+  analysis::AnalysisContext context;
+  if (in.scene) context.facts = analysis::factsOf(*in.scene);
+  const std::size_t most = std::max(mostFrames, mostGrainFrames / in.frame->size());
+  std::vector<FramePtr> frames = framesOf(in, most);
+  if (frames.empty() || frames.back()->time < in.frame->time) frames.push_back(in.frame);
+  analysis::Results results;
+  if (context.facts.tank && frames.size() > 1) {
+    results = analysis::analyze(vortex, knobsOf(vortex, in.knobs), context, frames);
+  } else {
+    results.sentences.emplace_back("No upright round tank: the states of a vortex do not apply.");
+  }
+  // The map needs neighbours in each frame: the last few, as many as it remembers twice over.
+  constexpr std::size_t recent = 12;
+  const std::vector<FramePtr> last(
+      frames.end() - static_cast<std::ptrdiff_t>(std::min(recent, frames.size())), frames.end());
+  analysis::Results map = analysis::analyze(general, analysis::defaultKnobs(general), context, last);
+  for (auto& curve : map.curves)
+    results.curves.push_back(std::move(curve));
+  results.sentences.insert(results.sentences.end(), map.sentences.begin(), map.sentences.end());
+  results.tables.push_back(thresholdsOf(general, analysis::defaultKnobs(general)));
+  for (auto& table : map.tables)
+    if (table.name == "state_sensitivity") results.tables.push_back(std::move(table));
+  return results;
+}
+
 } // namespace
 
 const std::vector<PanelAnalysis>& panelAnalyses() {
@@ -169,6 +215,8 @@ const std::vector<PanelAnalysis>& panelAnalyses() {
         if (panel.id == id) return; // the registry has it by now
       list.push_back({id, title, tip, asksQuantity, false, {}, compute});
     };
+    list.push_back({"states", "States", "the state of what is shown, the evidence for it, and the thresholds",
+                    false, false, analysis::analysisKind("vortex_states").knobs, states});
     own("histogram", "Histogram", "how any quantity of the grains is distributed", true, histogramOf);
     own("packing", "Packing", "packing fraction by height", false, packing);
     own("contacts", "Contacts", "how many contacts grains have", false, contactNumbers);

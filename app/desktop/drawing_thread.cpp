@@ -18,10 +18,12 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double shortestInterval = 0.35; ///< [s] between pictures while a simulation runs
-constexpr double chartInterval = 2.5;     ///< [s] between charts while a simulation runs
-constexpr double share = 0.4;             ///< of one core, for drawing while a simulation runs
-constexpr int nice = 1;                   ///< the pace spares the simulation; more would starve the picture
+// Between pictures while a simulation runs: as long as keeps drawing below its usual share of one core, but
+// no longer than shows one a second, unless the greatest share asks for that.
+constexpr double shortestInterval = 0.35, usualInterval = 0.9; ///< [s]
+constexpr double chartInterval = 2.5;                          ///< [s] between charts while a simulation runs
+constexpr double usualShare = 0.2, share = 0.4; ///< of one core, for drawing while a simulation runs
+constexpr int nice = 1; ///< the pace spares the simulation; more would starve the picture
 
 } // namespace
 
@@ -110,7 +112,8 @@ void DrawingThread::rest(double seconds, double processorSeconds) {
   if (!simulationRuns_) return;
   const auto now = Clock::now();
   const auto after = [&](double s) { return now + std::chrono::duration_cast<Clock::duration>(Seconds(s)); };
-  const double interval = std::max(processorSeconds / share, chartLast_ ? 0 : shortestInterval);
+  const double pause = std::clamp(processorSeconds / usualShare, shortestInterval, usualInterval);
+  const double interval = std::max(processorSeconds / share, chartLast_ ? 0 : pause);
   pictureFrom_ = std::max(pictureFrom_, after(interval - seconds));
   if (chartLast_) chartFrom_ = after(chartInterval);
 }

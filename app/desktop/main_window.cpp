@@ -4,9 +4,12 @@
 #include "app/desktop/chart_panel.h"
 #include "app/desktop/inspector_panel.h"
 #include "app/desktop/picture_view.h"
+#include "app/desktop/point_panel.h"
 #include "app/desktop/run_panel.h"
 #include "app/desktop/scene_panel.h"
 #include "app/desktop/start_page.h"
+#include "app/desktop/state_panel.h"
+#include "app/desktop/sweep_panel.h"
 #include "app/desktop/text_panels.h"
 #include "app/desktop/view_panel.h"
 
@@ -14,6 +17,7 @@
 #include <QDragEnterEvent>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QSplitter>
 #include <QStatusBar>
 #include <QVBoxLayout>
 
@@ -82,8 +86,15 @@ void MainWindow::buildCentre() {
   below->setSpacing(0);
   below->addWidget(picture_ = new PictureView(pictures), 1);
   below->addWidget(time_ = new TimeBar(pictures));
+  auto* split = new QSplitter(Qt::Horizontal, this);
+  split->addWidget(sweep_ = new SweepPanel);
+  split->addWidget(pictures);
+  split->setSizes({3, 2});
+  split->setStretchFactor(0, 3);
+  split->setStretchFactor(1, 2);
+  sweep_->hide();
   centre_->addWidget(start_ = new StartPage);
-  centre_->addWidget(pictures);
+  centre_->addWidget(split);
   column->addWidget(tabBar_);
   column->addWidget(banner_ = new Banner(centre));
   column->addWidget(centre_, 1);
@@ -145,15 +156,28 @@ void MainWindow::buildCharts() {
   auto* flow = chart("flow", "Flow rate", "Mass flow, once a scene with a flow_rate probe runs.");
   inspector_ = new InspectorPanel;
   charts_["history"] = inspector_->history();
+  point_ = new PointPanel("Open the folder of a sweep and choose a point of its diagram.");
+  charts_["point"] = point_->chart();
+  point_->chart()->setProperty("hint", "Open the folder of a sweep and choose a point of its diagram.");
   auto* inspector = addDock("inspector", "Grain", inspector_, Qt::RightDockWidgetArea);
+  auto* point = addDock("point", "Point", point_, Qt::RightDockWidgetArea);
   tabifyDockWidget(flow, inspector);
+  tabifyDockWidget(flow, point);
   flow->raise();
   QDockWidget* first = nullptr;
   for (const auto& analysis : panelAnalyses()) {
     const QString id = QString::fromStdString(analysis.id);
     QString tip = QString::fromStdString(analysis.tip) + ".";
     tip[0] = tip[0].toUpper();
-    auto* dock = chart(id, QString::fromStdString(analysis.title), tip);
+    QDockWidget* dock = nullptr;
+    if (id == "states") { // with its evidence above the chart
+      states_ = new StatePanel(tip);
+      charts_[id] = states_->chart();
+      states_->chart()->setProperty("hint", tip);
+      dock = addDock(id, QString::fromStdString(analysis.title), states_, Qt::RightDockWidgetArea);
+    } else {
+      dock = chart(id, QString::fromStdString(analysis.title), tip);
+    }
     charts_.at(id)->offerKnobs(analysis.knobs);
     if (first)
       tabifyDockWidget(first, dock);
@@ -172,7 +196,8 @@ void MainWindow::buildCharts() {
               drawing_->drawChart(name, curve, pixels);
             });
     connect(panel, &ChartPanel::exportWanted, this, &MainWindow::exportCurve);
-    if (id != "history") connect(panel, &ChartPanel::quantityChosen, this, [this] { requestAnalyses(true); });
+    if (id != "history" && id != "point")
+      connect(panel, &ChartPanel::quantityChosen, this, [this] { requestAnalyses(true); });
   }
 }
 
@@ -188,6 +213,7 @@ void MainWindow::connectPanels() {
   connect(run_, &RunPanel::changeWanted, this, &MainWindow::changeRun);
   connect(run_, &RunPanel::branchWanted, this, &MainWindow::branch);
   connect(run_, &RunPanel::speedLimitChosen, this, [this](double ratio) { session_->limitSpeed(ratio); });
+  connectSweep();
   connect(docks_["inspector"], &QDockWidget::visibilityChanged, this, [this](bool visible) {
     if (visible && now_) inspect();
   });

@@ -31,9 +31,12 @@ class ChartPanel;
 class InspectorPanel;
 class LogPanel;
 class PictureView;
+class PointPanel;
 class RunPanel;
 class ScenePanel;
 class StartPage;
+class StatePanel;
+class SweepPanel;
 class ViewPanel;
 
 struct WindowOptions {
@@ -134,6 +137,14 @@ private:
   std::optional<FrameOrder> besideOrder() const;
   void inspect();
 
+  // The explorer of a sweep (window_sweep.cpp).
+  void connectSweep();
+  void showSweep();
+  void choosePoint(int point);
+  void showSweepRun(int run);
+  void openPoint(int point);
+  void saveSweepTable(const QString& file);
+
   // What commands do (window_actions.cpp).
   void say(LogLevel level, const QString& text);
   void complain(const QStringList& sentences);
@@ -195,6 +206,9 @@ private:
   LogPanel* log_ = nullptr;
   AccuracyPanel* accuracy_ = nullptr;
   InspectorPanel* inspector_ = nullptr;
+  StatePanel* states_ = nullptr;
+  SweepPanel* sweep_ = nullptr;
+  PointPanel* point_ = nullptr;
   std::map<QString, ChartPanel*> charts_;
   std::map<QString, QDockWidget*> docks_;
 
@@ -207,6 +221,7 @@ private:
   bool dark_ = false;
   double textScale_ = 1;
   int picturesSince_ = 0;
+  int sweepReading_ = 0; ///< runs of a sweep that are being read
   QElapsedTimer sincePictures_;
   QTimer curveTimer_;
 };

@@ -1,6 +1,7 @@
 #include "app/desktop/opening.h"
 
 #include "sim/base/error.h"
+#include "sim/io/atomic_file.h"
 #include "sim/run/checkpoint_store.h"
 #include "vis/picture_record.h"
 
@@ -63,7 +64,28 @@ Opened openPicture(const fs::path& file) {
   return opened;
 }
 
+Opened openSweep(const fs::path& path) {
+  Opened opened;
+  opened.sweep = readSweepData(path);
+  opened.path = opened.sweep->folder;
+  opened.store = std::make_shared<FrameStore>(opened.path);
+  return opened;
+}
+
 } // namespace
+
+Opened openSweepRun(const fs::path& sweep, int run) {
+  const analysis::SweepTable table(sweep);
+  const analysis::SweepRow row = table.row(run);
+  const fs::path folder = sweep / "runs" / fmt::format("point_{:05}_seed_{}", row.point, row.seed);
+  if (isRunFolder(folder)) return openRun(folder);
+  fs::create_directories(folder.parent_path());
+  const fs::path file = folder.string() + ".toml";
+  writeAtomically(file, writeScene(table.scene(run)));
+  Opened opened = openScene(file);
+  opened.runFolder = folder;
+  return opened;
+}
 
 bool hasCheckpoint(const fs::path& runFolder) {
   return !checkpointFiles(runFolder).empty();
@@ -80,6 +102,7 @@ fs::path newRunFolder(const fs::path& runsFolder, const fs::path& sceneFile) {
 }
 
 Opened openAny(const fs::path& path, const std::optional<ImportSettings>& settings) {
+  if (isSweep(path)) return openSweep(path);
   if (fs::is_directory(path)) {
     if (isRunFolder(path)) return openRun(path);
     if (fs::exists(path / "scene.toml")) return openScene(path / "scene.toml");

@@ -3,6 +3,7 @@
 
 #include "app/desktop/frame_store.h"
 #include "app/desktop/probe_series.h"
+#include "app/desktop/sweep_points.h"
 #include "sim/scene/scene.h"
 #include "vis/view.h"
 
@@ -25,14 +26,19 @@ struct Opened {
   ProbeSeries series;
   std::optional<vis::View> view; ///< of the picture that was opened, or of view.toml beside the scene
   std::optional<double> time;    ///< [s], frame to show; absent: the last one
-  bool canResume = false;        ///< there is a checkpoint
+  std::shared_ptr<const SweepData> sweep;      ///< null unless this is a sweep
+  bool canResume = false;                      ///< there is a checkpoint
   std::optional<std::filesystem::path> beside; ///< the other run of a picture of two
 };
 
-/// A scene, a run folder, a segment of frames, a file of another program or a pattern of such, or a picture
-/// or film that leads back to its run. Settings for foreign files are those beside them unless some are
-/// given. Throws InputError.
+/// A scene, a run folder, a segment of frames, a file of another program or a pattern of such, a sweep, or a
+/// picture or film that leads back to its run. Settings for foreign files are those beside them unless some
+/// are given. Throws InputError.
 Opened openAny(const std::filesystem::path& path, const std::optional<ImportSettings>& settings = {});
+
+/// The run behind a row of a sweep: the one in the sweep's folder `runs` where it has been computed again,
+/// else its scene, to be run into that folder.
+Opened openSweepRun(const std::filesystem::path& sweep, int run);
 
 bool hasCheckpoint(const std::filesystem::path& runFolder);
 

@@ -37,6 +37,8 @@ QString describe(const EventSpec& event) {
   if (event.drag) what << QString("drag %1 1/s").arg(*event.drag);
   for (const auto& wall : event.removeWalls)
     what << QString("wall %1 removed").arg(QString::fromStdString(wall));
+  for (const auto& [field, factor] : event.fields)
+    what << QString("field %1 at %2 times its strength").arg(QString::fromStdString(field)).arg(factor);
   if (event.endStage) what << "stage ended";
   return QString("step %L1: %2").arg(static_cast<qlonglong>(event.step)).arg(what.join(", "));
 }
@@ -101,6 +103,22 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   gate->addWidget(walls_, 1);
   gate->addWidget(removeWall_);
   form->addRow("Wall", gate);
+  auto* blow = new QHBoxLayout;
+  fields_ = new QComboBox(this);
+  fields_->setObjectName("fieldToChange");
+  fields_->setToolTip("A field of the scene: wind, vortex, gravity");
+  fieldFactor_ = new QDoubleSpinBox(this);
+  fieldFactor_->setObjectName("fieldFactor");
+  fieldFactor_->setRange(-1000, 1000);
+  fieldFactor_->setValue(1);
+  fieldFactor_->setSingleStep(0.25);
+  fieldFactor_->setPrefix(QString(QChar(0x00D7)) + " ");
+  fieldFactor_->setToolTip("Its strength, as a multiple of what the scene says; 0: off");
+  applyField_ = button("applyField", "Set", "From the next step on the field has this strength");
+  blow->addWidget(fields_, 1);
+  blow->addWidget(fieldFactor_);
+  blow->addWidget(applyField_);
+  form->addRow("Field", blow);
   auto* turn = new QHBoxLayout;
   endStage_ = button("endStage", "End stage", "The next stage begins after the next step");
   branch_ = button("branch", "Branch here", "What if: a new run that shares the past up to the frame shown");
@@ -118,6 +136,9 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   connect(applyDrag_, &QPushButton::clicked, this, [this] { Q_EMIT changeWanted({.drag = drag_->value()}); });
   connect(removeWall_, &QPushButton::clicked, this,
           [this] { Q_EMIT changeWanted({.removeWalls = {walls_->currentText().toStdString()}}); });
+  connect(applyField_, &QPushButton::clicked, this, [this] {
+    Q_EMIT changeWanted({.fields = {{fields_->currentText().toStdString(), fieldFactor_->value()}}});
+  });
   connect(endStage_, &QPushButton::clicked, this, [this] { Q_EMIT changeWanted({.endStage = true}); });
   connect(branch_, &QPushButton::clicked, this, &RunPanel::branchWanted);
   setScene(std::nullopt);
@@ -151,6 +172,16 @@ void RunPanel::setScene(const std::optional<Scene>& scene) {
       names << QString::fromStdString(wall.name);
     walls_->clear();
     walls_->addItems(names);
+    QStringList blowing, known;
+    for (const auto& field : scene_->fields)
+      blowing << QString::fromStdString(field.name);
+    for (int k = 0; k < fields_->count(); ++k)
+      known << fields_->itemText(k);
+    if (blowing != known) {
+      fields_->clear();
+      fields_->addItems(blowing);
+      fieldFactor_->setValue(1);
+    }
   }
   showStages();
   showEvents();
@@ -180,6 +211,7 @@ void RunPanel::setProgress(const std::optional<Progress>& progress, bool runs) {
   for (QWidget* w : {static_cast<QWidget*>(applyGravity_), static_cast<QWidget*>(applyDrag_),
                      static_cast<QWidget*>(endStage_), static_cast<QWidget*>(removeWall_)})
     w->setEnabled(runs && (w != removeWall_ || walls_->count() > 0));
+  applyField_->setEnabled(runs && fields_->count() > 0);
   const std::string stage = progress ? progress->stage : stage_;
   if (stage == stage_ && runs == runs_ && complete == complete_) return;
   stage_ = stage;

@@ -38,6 +38,15 @@ void Session::openBranch(const std::filesystem::path& source, std::int64_t step)
   });
 }
 
+void Session::openSweepRun(const std::filesystem::path& sweep, int run) {
+  openBy([=] { return desktop::openSweepRun(sweep, run); });
+  const auto once = std::make_shared<QMetaObject::Connection>();
+  *once = connect(this, &Session::opened, this, [this, once] {
+    disconnect(*once);
+    if (current_.store->size() == 0) start();
+  });
+}
+
 void Session::openBy(const std::function<Opened()>& read) {
   const quint64 order = ++opening_;
   pool_.start([this, order, read] {

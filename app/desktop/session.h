@@ -49,6 +49,9 @@ public:
   QString change(const EventSpec& event);
   /// Another scene in place of the one that is open: Run starts a new run. Not while one goes on.
   void setScene(Scene scene, const QString& text, const QString& resolved);
+  /// The run behind a row of a sweep, started where its frames were not kept.
+  void openSweepRun(const std::filesystem::path& sweep, int run);
+  void setSweep(std::shared_ptr<const SweepData> sweep) { current_.sweep = std::move(sweep); } ///< read anew
   /// A new run that shares the past of the one in `source` up to `step`, opened here and paused there.
   void openBranch(const std::filesystem::path& source, std::int64_t step);
   void stopAndWait();                          ///< the checkpoint is written afterwards

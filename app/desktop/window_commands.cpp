@@ -314,10 +314,15 @@ std::vector<Command> MainWindow::panelRows() {
   panel("energies", "&Energies", "Ctrl+6", "Energies of the grains against time");
   panel("flow", "&Flow rate", "Ctrl+7", "Mass flow against time");
   panel("inspector", "&Grain", "Ctrl+8", "All about the grain that was clicked");
+  panel("point", "&Point of a sweep", "Ctrl+9", "Parameters, results and curves of the chosen point");
   int number = 0;
-  for (const auto& analysis : panelAnalyses())
-    panel(QString::fromStdString(analysis.id), QString::fromStdString(analysis.title),
-          ++number > 9 ? QString() : QString("Alt+%1").arg(number), QString::fromStdString(analysis.tip));
+  for (const auto& analysis : panelAnalyses()) {
+    const QString id = QString::fromStdString(analysis.id);
+    const QString key = id == "states" ? QString("Alt+0")
+                        : ++number > 9 ? QString()
+                                       : QString("Alt+%1").arg(number);
+    panel(id, QString::fromStdString(analysis.title), key, QString::fromStdString(analysis.tip));
+  }
   return rows;
 }
 

@@ -8,6 +8,7 @@
 #include "app/desktop/run_panel.h"
 #include "app/desktop/scene_panel.h"
 #include "app/desktop/start_page.h"
+#include "app/desktop/state_panel.h"
 #include "app/desktop/text_panels.h"
 #include "app/desktop/undo_commands.h"
 #include "app/desktop/view_panel.h"
@@ -201,6 +202,8 @@ void MainWindow::showDocument() {
   picture_->setHint(title, current.scene ? "Press F5 or Space to run this scene." : "");
   for (auto& [id, panel] : charts_)
     panel->clear(panel->property("hint").toString());
+  states_->clear();
+  showSweep();
   if (!open) {
     scene_->setScene({}, {}, false);
     run_->setScene(std::nullopt);

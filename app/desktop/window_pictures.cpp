@@ -7,6 +7,7 @@
 #include "app/desktop/picture_view.h"
 #include "app/desktop/run_panel.h"
 #include "app/desktop/scene_panel.h"
+#include "app/desktop/state_panel.h"
 #include "app/desktop/text_panels.h"
 #include "app/desktop/undo_commands.h"
 #include "app/desktop/view_panel.h"
@@ -120,6 +121,10 @@ void MainWindow::takeAnalyses() {
   for (auto& [id, outcome] : analyses_->take()) {
     auto* panel = charts_.at(id);
     panel->setPinName(curveName());
+    if (id == "states" && outcome.results)
+      states_->show(*outcome.results);
+    else if (id == "states")
+      states_->clear();
     if (outcome.results && !outcome.results->curves.empty())
       panel->setCurves(std::move(outcome.results->curves));
     else
@@ -151,7 +156,7 @@ void MainWindow::refreshCurves() {
 bool MainWindow::isSettled() const {
   return !session_->isOpening() && drawn_ == ordered_ &&
          std::all_of(charts_.begin(), charts_.end(), [](const auto& c) { return c.second->isCurrent(); }) &&
-         analyses_->isIdle() && scene_->isSettled() && inspector_->isSettled();
+         analyses_->isIdle() && scene_->isSettled() && inspector_->isSettled() && sweepReading_ == 0;
 }
 
 void MainWindow::onPicked(qint64 grain, int half) {

@@ -23,7 +23,7 @@ namespace sandglass::desktop {
 
 namespace {
 
-constexpr int layoutVersion = 4; ///< of docks and tool bars: another one starts from the built-in layout
+constexpr int layoutVersion = 5; ///< of docks and tool bars: another one starts from the built-in layout
 constexpr int mostRecent = 12;
 constexpr double smallestText = 0.7, largestText = 2.5;
 

@@ -223,11 +223,16 @@ RunOutcome Run::loop() {
   Solver& solver = *run.solver;
   RunRecorder& recorder = *run.recorder;
   StageControl& stages = *run.stages;
+  double liveCost = 0; // [s] of the last live frame
   const auto live = [&](bool now) {
-    const double interval = run.options.liveInterval;
-    if (!onLiveFrame || interval <= 0 || (!now && secondsSince(run.lastLive) < interval)) return;
-    run.lastLive = Clock::now();
+    // A frame of many grains takes a while to make: it may cost a thirtieth of the run.
+    const double interval = std::max(run.options.liveInterval, 30 * liveCost);
+    if (!onLiveFrame || run.options.liveInterval <= 0 || (!now && secondsSince(run.lastLive) < interval))
+      return;
+    const auto start = Clock::now();
     onLiveFrame(run.frame());
+    run.lastLive = Clock::now();
+    liveCost = secondsSince(start);
   };
   const auto save = [&] {
     if (!recorder.needsFrame(solver.step())) return;

@@ -16,6 +16,8 @@
 #include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QLineEdit>
+#include <QMenuBar>
+#include <QMimeData>
 #include <QPushButton>
 #include <QSlider>
 #include <QToolButton>
@@ -69,8 +71,7 @@ public:
   }
   template <class Button> void click(const char* name) {
     ++actions_;
-    auto* button = desktop_.child<Button>(name);
-    QTest::mouseClick(button, Qt::LeftButton, {}, QPoint(8, button->height() / 2));
+    desktop_.click(name);
   }
   void clickIn(QWidget* panel, const char* name) {
     ++actions_;
@@ -80,27 +81,49 @@ public:
   }
   void type(const char* name, const char* text) {
     ++actions_;
-    auto* line = desktop_.child<QLineEdit>(name);
-    line->setFocus();
-    line->selectAll();
-    QTest::keyClicks(line, text);
-    QTest::keyClick(line, Qt::Key_Return);
+    desktop_.type(name, text);
   }
   void choose(const char* name, const QString& item) {
     ++actions_;
-    auto* box = desktop_.child<QComboBox>(name);
-    REQUIRE(box->findText(item) >= 0);
-    box->setFocus();
-    box->setCurrentIndex(box->findText(item));
-    Q_EMIT box->activated(box->currentIndex());
+    desktop_.choose(name, item);
   }
   void chooseIn(QWidget* panel, const char* name, const QString& item) {
     ++actions_;
     auto* box = panel->findChild<QComboBox*>(name);
     REQUIRE(box);
-    REQUIRE(box->findText(item) >= 0);
-    box->setCurrentIndex(box->findText(item));
-    Q_EMIT box->activated(box->currentIndex());
+    Desktop::choose(box, item);
+  }
+  void slide(const char* name, int value) {
+    ++actions_;
+    desktop_.slide(name, value);
+  }
+  /// Opens the command's menu with the mouse and goes down to it with the arrow key.
+  void menu(const char* id) {
+    ++actions_;
+    QAction* action = window().commands().action(id);
+    auto* bar = window().menuBar();
+    for (QAction* top : bar->actions()) {
+      QMenu* list = top->menu();
+      if (!list || !list->actions().contains(action)) continue;
+      QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(top).center());
+      for (int k = 0; k < 2 * list->actions().size() && list->activeAction() != action; ++k)
+        QTest::keyClick(list, Qt::Key_Down);
+      REQUIRE(list->activeAction() == action);
+      QTest::keyClick(list, Qt::Key_Return);
+      return;
+    }
+    FAIL("no menu has " << id);
+  }
+  /// From a file manager into the window.
+  void drop(const std::filesystem::path& path) {
+    ++actions_;
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(QString::fromStdString(path.string()))});
+    QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QCoreApplication::sendEvent(&window(), &enter);
+    REQUIRE(enter.isAccepted());
+    QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QCoreApplication::sendEvent(&window(), &drop);
   }
   /// Types a name into the file dialog that the next action opens.
   void nameNextFile(const std::filesystem::path& file) {
@@ -109,7 +132,7 @@ public:
       for (auto* widget : QApplication::topLevelWidgets())
         if (auto* dialog = qobject_cast<QFileDialog*>(widget); dialog && dialog->isVisible()) {
           auto* line = dialog->findChild<QLineEdit*>("fileNameEdit");
-          line->setText(QString::fromStdString(file.string()));
+          QTest::keyClicks(line, QString::fromStdString(file.string()));
           QTest::keyClick(line, Qt::Key_Return);
         }
     });
@@ -174,7 +197,7 @@ TEST_CASE("A day of the explorer", "[desktop][days]") {
       [&] { return window.session().liveFrame() && window.session().liveFrame()->stage == "discharge"; },
       120));
   day.command("panel.run");
-  day.desktop().child<QDoubleSpinBox>("gravity.x")->setValue(6);
+  day.type("gravity.x", "6");
   day.click<QPushButton>("applyGravity");
   const double from = window.session().liveFrame()->time;
   REQUIRE(waitFor([&] { return window.session().liveFrame()->time > from + 0.1; }, 60));
@@ -194,7 +217,7 @@ TEST_CASE("A day of the explorer", "[desktop][days]") {
   day.key(Qt::Key_F5, Qt::ShiftModifier);
   REQUIRE(waitFor([&] { return !window.session().runs(); }));
   day.settle();
-  day.desktop().child<QSlider>("time")->setValue(3);
+  day.slide("time", 3);
   day.settle();
   const double moment = window.shownFrame()->time;
   REQUIRE(moment > 0);
@@ -241,7 +264,7 @@ TEST_CASE("A day of the batch user", "[desktop][days]") {
     auto& window = day.window();
     for (int k = 0; k < commands; ++k)
       day.settle();
-    window.open(QString::fromStdString(run)); // dropped into the window
+    day.drop(run);
     REQUIRE(waitFor([&] { return window.session().isOpen() && window.shownFrame(); }));
     day.settle();
     REQUIRE(day.desktop().child<desktop::ChartPanel>("energies")->charts() > 0);
@@ -270,7 +293,7 @@ TEST_CASE("A day of the analyst", "[desktop][days]") {
   const auto segments = std::filesystem::directory_iterator(folder / "run" / "frames");
   Day day("analyst", folder / "", folder / "unused");
   auto& window = day.window();
-  window.open(QString::fromStdString(std::filesystem::begin(segments)->path().string())); // a file alone
+  day.drop(std::filesystem::begin(segments)->path()); // a file alone
   REQUIRE(waitFor([&] { return window.session().isOpen() && window.shownFrame(); }));
   day.settle();
   const auto panel = [&](const char* id) { return day.desktop().child<desktop::ChartPanel>(id); };
@@ -279,7 +302,7 @@ TEST_CASE("A day of the analyst", "[desktop][days]") {
   day.settle();
   REQUIRE(waitFor([&] { return panel("bond_angles")->charts() > 0; }, 60));
   day.picture("analyst_angles.png");
-  window.commands().action("panel.histogram")->trigger(); // by the menu Panels
+  day.menu("panel.histogram");
   day.settle();
   REQUIRE(waitFor([&] { return panel("histogram")->charts() > 0; }));
   day.chooseIn(panel("histogram"), "chartQuantity", "z");

@@ -212,6 +212,32 @@ TEST_CASE("supersampling, 4k, selections and a camera that goes round") {
   CHECK(vis::readPng(folder / "out/frame_00009.png").width == 3840);
 }
 
+TEST_CASE("tracks of chosen grains and slices through averages without a field of their own") {
+  const TemporaryFolder folder("render-tracks");
+  const auto drawn = [&](const std::string& options, const char* name, vis::View& view) {
+    const Result result = program(on("--at 0.003 " + options + " -o " + (folder / name).string()));
+    INFO(result.text);
+    REQUIRE(result.code == 0);
+    std::map<std::string, std::string> text;
+    const vis::Image image = vis::readPng(folder / name / "frame_00060.png", &text);
+    view = vis::parseView(text.at("view"), "view of the picture");
+    return image;
+  };
+  vis::View view;
+  const vis::Image plain = drawn("", "plain", view);
+  const vis::Image tracked = drawn("--tracks 0,1", "tracks", view);
+  CHECK(view.tracks.grains == std::vector<std::int64_t>{0, 1});
+  CHECK(vis::difference(plain, tracked) > 0);
+  const vis::Image recent = drawn("--tracks 0,1 --track-duration 1e-4", "recent", view);
+  CHECK(view.tracks.duration == 1e-4);
+  CHECK(vis::difference(plain, recent) < vis::difference(plain, tracked));
+  const vis::Image slice = drawn("--slice packing_fraction", "slice", view);
+  CHECK(view.slice.shown);
+  CHECK(view.slice.quantity == "packing_fraction");
+  CHECK_FALSE(view.grains);
+  CHECK(vis::difference(plain, slice) > 0.01);
+}
+
 TEST_CASE("what render cannot do is a sentence and exit code 2") {
   const TemporaryFolder folder("render-refusals");
   std::ofstream(folder / "view.toml") << "[camera]\npreset = \"side\"\nzoom = 2\n";
