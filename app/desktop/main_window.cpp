@@ -86,7 +86,7 @@ void MainWindow::buildCentre() {
   below->setSpacing(0);
   below->addWidget(picture_ = new PictureView(pictures), 1);
   below->addWidget(time_ = new TimeBar(pictures));
-  auto* split = new QSplitter(Qt::Horizontal, this);
+  auto* split = new QSplitter(Qt::Vertical, this);
   split->addWidget(sweep_ = new SweepPanel);
   split->addWidget(pictures);
   split->setSizes({3, 2});

@@ -3,7 +3,7 @@
 #include "analysis/vortex/vortex_rules.h"
 
 #include <QHeaderView>
-#include <QSplitter>
+#include <QTabWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -46,23 +46,21 @@ StatePanel::StatePanel(const QString& hint, QWidget* parent)
   evidence_->setHeaderHidden(true);
   evidence_->setRootIsDecorated(true);
   evidence_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  auto* split = new QSplitter(Qt::Vertical, this);
-  split->addWidget(evidence_);
-  split->addWidget(chart_);
-  split->setStretchFactor(0, 1);
-  split->setStretchFactor(1, 1);
+  auto* pages = new QTabWidget(this);
+  pages->setObjectName("statePages");
+  pages->addTab(evidence_, "Evidence");
+  pages->addTab(chart_, "Curves");
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
   column->addWidget(sentence_);
-  column->addWidget(split, 1);
+  column->addWidget(pages, 1);
   clear();
 }
 
 void StatePanel::clear() {
   sentence_->hide();
   evidence_->clear();
-  evidence_->hide();
 }
 
 void StatePanel::show(const analysis::Results& results) {
@@ -81,7 +79,6 @@ void StatePanel::show(const analysis::Results& results) {
     auto* item = evidence_->topLevelItem(k);
     item->setExpanded(!closed.contains(item->text(0)));
   }
-  evidence_->setVisible(!results.tables.empty());
 }
 
 void StatePanel::addTable(const analysis::Table& table) {

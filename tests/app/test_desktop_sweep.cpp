@@ -11,6 +11,7 @@
 #include "tests/sim/frame_equality.h"
 
 #include <QPushButton>
+#include <QTabWidget>
 #include <QTreeWidget>
 
 #include <catch2/catch.hpp>
@@ -254,6 +255,10 @@ TEST_CASE(
       found = found || row.contains(rules);
     CHECK(found);
   }
+  keepPicture(desktop, folder / "evidence.png", "state_evidence.png");
+  auto* pages = desktop.child<QTabWidget>("statePages");
+  QTest::mouseClick(pages->tabBar(), Qt::LeftButton, {}, pages->tabBar()->tabRect(1).center());
+  REQUIRE(panel->chart()->isVisible());
   REQUIRE(waitFor([&] { return panel->chart()->charts() > 0 && desktop.window->isSettled(); }, 60));
   keepPicture(desktop, folder / "states.png", "states.png");
 }
