@@ -22,7 +22,7 @@ using Seconds = std::chrono::duration<double>;
 // no longer than shows one a second, unless the greatest share asks for that.
 constexpr double shortestInterval = 0.35, usualInterval = 0.9; ///< [s]
 constexpr double chartInterval = 2.5;                          ///< [s] between charts while a simulation runs
-constexpr double usualShare = 0.2, share = 0.4; ///< of one core, for drawing while a simulation runs
+constexpr double usualShare = 0.3, share = 0.4; ///< of one core, for drawing while a simulation runs
 constexpr int nice = 1; ///< the pace spares the simulation; more would starve the picture
 
 } // namespace

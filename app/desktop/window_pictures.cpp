@@ -105,7 +105,8 @@ void MainWindow::requestAnalyses(bool restart) {
   const bool beside = session_->runs() && !session_->isPaused();
   for (const auto& analysis : panelAnalyses()) {
     auto* panel = charts_.at(QString::fromStdString(analysis.id));
-    if (!panel->isVisible() || panel->visibleRegion().isEmpty()) continue; // hidden, or behind another tab
+    const QWidget* seen = analysis.id == "states" ? static_cast<QWidget*>(states_) : panel;
+    if (!seen->isVisible() || seen->visibleRegion().isEmpty()) continue; // hidden, or behind another tab
     if (analysis.asksQuantity) panel->offerQuantities(grainScalarNames(*now_->shown));
     AnalysisInput input;
     input.frame = now_->shown;
