@@ -249,8 +249,8 @@ values = [1e-6, 0.5, 5]
   const auto rows = SweepTable(folder / "all").rows();
   CHECK(rows[0].status == SweepStatus::failed); // while running
   CHECK_THAT(rows[0].fault, Contains("maximum_overlap"));
-  CHECK(rows[1].status == SweepStatus::failed); // the scene is wrong: at most 1
-  CHECK_THAT(rows[1].fault, Contains("must not be above 1"));
+  CHECK(rows[1].status == SweepStatus::failed); // the scene is wrong here
+  CHECK_THAT(rows[1].fault, Contains("maximum_overlap is 5, but must not be above"));
   CHECK(rows[2].status == SweepStatus::done);
   CHECK(program("sweep " + (folder / "SWEEP.toml").string() + " --dry-run").code == 2);
 }
