@@ -29,7 +29,9 @@ AccuracyPanel::AccuracyPanel(QWidget* parent) : QTreeWidget(parent) {
   contact_ = row(knobs, "steps in a contact", "more: more accurate collisions, slower");
   step_ = row(knobs, "time step", "what the run takes");
   stiffness_ = row(knobs, "stiffness scale", "softer: longer steps, deeper overlaps");
-  arithmetic_ = row(knobs, "arithmetic", "fast: roots and quotients to two units in the last place");
+  arithmetic_ =
+      row(knobs, "precision and arithmetic",
+          "mixed: pairs in single precision; fast: roots and quotients to two units in the last place");
   skin_ = row(knobs, "list skin", "share of the mean diameter; speed alone");
   limit_ = row(knobs, "overlap allowed", "share of the smaller radius at which the run stops");
   auto* measured = new QTreeWidgetItem(this, {"Measured"});
@@ -59,7 +61,8 @@ void AccuracyPanel::setScene(const std::optional<Scene>& scene) {
   contact_->setText(1, QString::number(a.stepsPerContact));
   if (a.timeStep) step_->setText(1, QString("%1 s, fixed by the scene").arg(*a.timeStep));
   stiffness_->setText(1, QString::number(a.stiffnessScale));
-  arithmetic_->setText(1, a.fastArithmetic ? "fast" : "portable");
+  arithmetic_->setText(1, QString("%1, %2").arg(a.mixedPrecision ? "mixed" : "double",
+                                                a.fastArithmetic ? "fast" : "portable"));
   skin_->setText(1, QString::number(a.skin));
   limit_->setText(1, QString::number(a.maximumOverlap));
 }

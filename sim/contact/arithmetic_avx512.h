@@ -55,6 +55,45 @@ struct FastAvx512 : ExactAvx512 {
   }
 };
 
+/// Sixteen numbers of single precision, with the bits of IEEE arithmetic.
+struct SingleAvx512 {
+  using V = __m512;
+  template <class> SANDGLASS_LOOP static V all(double a) { return _mm512_set1_ps(static_cast<float>(a)); }
+  SANDGLASS_LOOP static V root(V a) { return _mm512_sqrt_ps(a); }
+  SANDGLASS_LOOP static V over(V a, V b) { return a / b; }
+  SANDGLASS_LOOP static V overRoot(V a, V b, V& rootOfB, __mmask16 = 0xffff) {
+    rootOfB = root(b);
+    return a / rootOfB;
+  }
+  SANDGLASS_LOOP static V fma(V a, V b, V c) { return _mm512_fmadd_ps(a, b, c); }
+  SANDGLASS_LOOP static V fnma(V a, V b, V c) { return _mm512_fnmadd_ps(a, b, c); }
+  SANDGLASS_LOOP static __mmask16 above(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
+  SANDGLASS_LOOP static __mmask16 both(__mmask16 a, __mmask16 b) { return a & b; }
+  SANDGLASS_LOOP static V pick(__mmask16 mask, V a, V b) { return _mm512_mask_blend_ps(mask, b, a); }
+  SANDGLASS_LOOP static V larger(V a, V b) { return _mm512_max_ps(b, a); }
+};
+
+/// As FastAvx512: one Newton step each. Arguments from 1e-37 to 1e37.
+struct FastSingleAvx512 : SingleAvx512 {
+  SANDGLASS_LOOP static V root(V a) {
+    V r;
+    overRoot(a, a, r);
+    return pick(above(a, _mm512_setzero_ps()), r, a);
+  }
+  SANDGLASS_LOOP static V over(V a, V b) {
+    const V y = _mm512_rcp14_ps(b);
+    const V e = _mm512_fnmadd_ps(b, y, _mm512_set1_ps(1.0F));
+    return a * _mm512_fmadd_ps(e, y, y);
+  }
+  SANDGLASS_LOOP static V overRoot(V a, V b, V& rootOfB, __mmask16 = 0xffff) {
+    V y = _mm512_rsqrt14_ps(b);
+    const V e = _mm512_fnmadd_ps(b * y, y, _mm512_set1_ps(1.0F));
+    y = _mm512_fmadd_ps(e, _mm512_set1_ps(0.5F) * y, y);
+    rootOfB = b * y;
+    return a * y;
+  }
+};
+
 } // namespace
 
 } // namespace sandglass

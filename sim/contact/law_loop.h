@@ -18,6 +18,7 @@
 
 #include "sim/contact/law.h"
 #include "sim/contact/laws/arithmetic.h"
+#include "sim/contact/laws/narrowed.h"
 
 #include <array>
 #include <bit>
@@ -65,23 +66,16 @@ private:
     using Wanted = typename Derived::template Constants<Real>;
     constexpr int fields = sizeof(Given) / sizeof(double);
     using Numbers = std::array<Real, fields>;
-    const auto narrowed = [](const Given& given) {
-      const auto numbers = std::bit_cast<std::array<double, fields>>(given);
-      Numbers out;
-      for (int k = 0; k < fields; ++k)
-        out[k] = static_cast<Real>(numbers[k]);
-      return out;
-    };
     const Given* rows = self().table_.data();
     if (b.oneType) {
-      const Wanted c = std::bit_cast<Wanted>(narrowed(rows[b.type[0]]));
+      const Wanted c = narrowed<Wanted, Real>(rows[b.type[0]]);
       self().loop(b, first, [c](int) { return c; });
       return;
     }
     // Several kinds of pairs in one block: their constants become columns too.
     alignas(64) Real column[fields][ContactBlock::capacity];
     for (int i = 0; i < b.size; ++i) {
-      const Numbers numbers = narrowed(rows[b.type[i]]);
+      const auto numbers = narrowed<Numbers, Real>(rows[b.type[i]]);
       for (int k = 0; k < fields; ++k)
         column[k][i] = numbers[k];
     }

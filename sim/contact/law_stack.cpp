@@ -132,7 +132,7 @@ const char* roleName(LawRole role) {
 
 LawStack::LawStack(const Scene& scene, bool anySize)
     : materials_(static_cast<int>(scene.materials.size())), stiffnessScale_(scene.accuracy.stiffnessScale),
-      fastArithmetic_(scene.accuracy.fastArithmetic) {
+      fastArithmetic_(scene.accuracy.fastArithmetic), mixed_(scene.accuracy.mixedPrecision) {
   for (const Material& m : scene.materials) {
     const double mass = anySize ? 0.0 : oneMass(scene, m);
     promisedInverseMass_.push_back(mass > 0.0 ? 1.0 / mass : 0.0);
@@ -226,8 +226,9 @@ void LawStack::addForces(ContactBlock& block) const {
     entry.law->apply(block, entry.firstHistory, width_);
 }
 
-FusedLaws LawStack::fused() const {
+FusedLaws LawStack::fused(int material) const {
   FusedLaws laws;
+  laws.type = typeOf(material, material);
   for (const Entry& entry : entries_)
     entry.law->fuse(laws);
   const bool alone = entries_.size() == 1 && entries_[0].role == LawRole::normal;

@@ -25,8 +25,8 @@ public:
   /// The same onto forces that are there (zero, as kernels leave them).
   void addForces(ContactBlock& block) const;
 
-  /// What the laws are together; `other` where they have no loop of their own.
-  FusedLaws fused() const;
+  /// What the laws are together between grains of one material; `other` where they have no loop of their own.
+  FusedLaws fused(int material) const;
 
   /// Whether a grain has the mass that PairType::uniformMass promised to the laws.
   bool asPromised(int material, double inverseMass) const {
@@ -52,6 +52,7 @@ public:
   unsigned reads() const { return reads_; } ///< columns of the block, Law::Columns
   KernelWidth width() const { return width_; }
   bool fastArithmetic() const { return fastArithmetic_; } ///< AccuracySpec::fastArithmetic
+  bool mixed() const { return mixed_; }                   ///< AccuracySpec::mixedPrecision
   void useWidth(KernelWidth width) { width_ = width; }
   bool turning() const { return turning_; }
   bool readsSpin() const { return readsSpin_; }
@@ -61,6 +62,13 @@ public:
   const std::vector<std::string>& quantityNames() const { return quantityNames_; }
   /// Quads written per pair: force; with friction also a torque; with couples those too.
   int outputQuads() const { return readsSpin_ ? 3 : turning_ ? 2 : 1; }
+  int outputStride() const { return (mixed_ ? 2 : 4) * outputQuads(); } ///< doubles a pair, ParticleView
+
+  /// Which laws can be mixed precision, as a sentence.
+  static constexpr const char* mixedRule =
+      "precision = \"mixed\" works for grains of one material under a linear normal law, or grains of one "
+      "size under a hertz law with a given restitution, alone or with a tangential spring, and no other "
+      "laws between grains; use precision = \"double\"";
 
 private:
   void appendRole(LawRole role, const std::vector<const ContactSpec*>& specs);
@@ -72,7 +80,7 @@ private:
   std::vector<double> promisedInverseMass_; ///< [1/kg] by material; 0: none
   int materials_ = 0, history_ = 0;
   double stiffnessScale_ = 1.0;
-  bool fastArithmetic_ = false;
+  bool fastArithmetic_ = false, mixed_ = false;
   double range_ = 0.0;
   unsigned reads_ = 0;
   KernelWidth width_ = bestKernelWidth();

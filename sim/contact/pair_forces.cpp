@@ -1,5 +1,8 @@
 #include "sim/contact/pair_forces.h"
 
+#include "sim/base/error.h"
+#include "sim/contact/mixed/mixed_loops.h"
+
 namespace sandglass {
 
 void PairForces::watchOverlap(double share, double smallestRadius) {
@@ -10,7 +13,7 @@ void PairForces::watchOverlap(double share, double smallestRadius) {
 void PairForces::bind(GrainStore& grains, PairList& list) {
   grains_ = &grains;
   list_ = &list;
-  kernel_ = &kernelOf(laws_.width());
+  kernel_ = laws_.mixed() ? mixedKernel(laws_.width()) : kernelOf(laws_.width());
   view_.records = &grains.records().data()->x;
   view_.quads = grains.quadsPerRecord();
   view_.pairs = &list.pairs().data()->a;
@@ -19,11 +22,14 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
   view_.noShift = static_cast<std::uint8_t>(list.shifts().size() / 2); // codes are symmetric about the box
   view_.material = grains.material.data();
   view_.materials = laws_.materials();
-  view_.oneMaterial =
-      std::all_of(grains.material.begin(), grains.material.end(), [](std::uint8_t m) { return m == 0; });
+  const int material = grains.size() > 0 ? grains.material[0] : 0;
+  view_.oneMaterial = std::all_of(grains.material.begin(), grains.material.begin() + grains.size(),
+                                  [material](std::uint8_t m) { return m == material; });
+  view_.oneType = laws_.typeOf(material, material);
   view_.history = list.history();
   view_.historySize = list.historySize();
-  view_.outputQuads = list.outputQuads();
+  view_.outputQuads = laws_.outputQuads();
+  view_.outputStride = laws_.outputStride();
   view_.places = list.places();
   view_.readsSpin = laws_.readsSpin();
   view_.radiusArm = laws_.fullRadiusArm();
@@ -34,15 +40,28 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
     if (grains.place[i].w != view_.oneRadius) view_.oneRadius = 0.0;
     if (grains.motion[i].w != view_.oneInverseMass) view_.oneInverseMass = 0.0;
   }
-  pickLoop();
+  pickLoop(material);
+  if (!laws_.mixed()) return;
+  mixed_.bind(grains, list, view_);
+  refresh();
 }
 
-void PairForces::pickLoop() {
-  fused_ = laws_.fused();
+void PairForces::refresh() {
+  if (view_.mixed) MixedRecords::refresh(kernel_, view_, static_cast<std::int64_t>(grains_->size()));
+}
+
+void PairForces::pickLoop(int material) {
+  fused_ = laws_.fused(material);
   fusedLoop_ = nullptr;
   const bool linear =
       fused_.normal == FusedLaws::Normal::linear || fused_.normal == FusedLaws::Normal::linearOfMass;
-  if (!view_.oneMaterial || (!linear && view_.oneRadius == 0.0)) return;
+  const bool possible = view_.oneMaterial && (linear || view_.oneRadius > 0.0);
+  if (laws_.mixed()) {
+    fusedLoop_ = possible ? mixedLoop(fused_, laws_.width(), laws_.fastArithmetic()) : nullptr;
+    if (!fusedLoop_ && grains_->size() > 0) throw InputError(LawStack::mixedRule);
+    return;
+  }
+  if (!possible) return;
   if (laws_.width() == KernelWidth::avx512) fusedLoop_ = fusedLoopAvx512(fused_, laws_.fastArithmetic());
   if (laws_.width() == KernelWidth::avx2) fusedLoop_ = fusedLoopAvx2(fused_);
 }
@@ -50,7 +69,7 @@ void PairForces::pickLoop() {
 void PairForces::fillBlock(std::int64_t first, int count, double dt, ContactBlock& b,
                            PairColumns& columns) const {
   b.dt = dt;
-  kernel_->fill(view_, first, count, b, columns);
+  kernel_.fill(view_, first, count, b, columns);
   if (laws_.ownTorque()) sumSpins(first, b);
 }
 
@@ -65,7 +84,7 @@ void PairForces::sumSpins(std::int64_t first, ContactBlock& b) const {
 }
 
 void PairForces::writeTorques(const ContactBlock& b, double* out) const {
-  for (int c = 0; c < b.size; ++c, out += 4 * view_.outputQuads) {
+  for (int c = 0; c < b.size; ++c, out += view_.outputStride) {
     out[4] = b.mx[c] / b.radiusA[c];
     out[5] = b.my[c] / b.radiusA[c];
     out[6] = b.mz[c] / b.radiusA[c];
@@ -77,7 +96,7 @@ void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Sc
                           double* out) const {
   constexpr int capacity = ContactBlock::capacity;
   for (std::int64_t first = range.begin; first < range.end;
-       first += capacity, out += capacity * 4 * view_.outputQuads) {
+       first += capacity, out += capacity * view_.outputStride) {
     const int count = static_cast<int>(std::min<std::int64_t>(capacity, range.end - first));
     if (fusedLoop_) {
       if (fusedLoop_(view_, fused_, first, first + count, dt, keepHistory, out) <= overlapLength_) continue;
@@ -88,7 +107,7 @@ void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Sc
     fillBlock(first, count, dt, scratch.block, scratch.columns);
     applyLaws(first, scratch);
     reportOverlaps(first, scratch);
-    kernel_->write(view_, first, scratch.block, scratch.columns, keepHistory, out);
+    kernel_.write(view_, first, scratch.block, scratch.columns, keepHistory, out);
     if (laws_.ownTorque()) writeTorques(scratch.block, out);
   }
 }

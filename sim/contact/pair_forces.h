@@ -2,6 +2,7 @@
 // Pair contacts: from grain records to forces per pair and new histories, block by block.
 
 #include "sim/contact/law_stack.h"
+#include "sim/contact/mixed/mixed_records.h"
 #include "sim/contact/pair_kernel.h"
 #include "sim/contact/pair_list.h"
 #include "sim/grains/grain_store.h"
@@ -51,6 +52,10 @@ public:
   void bind(GrainStore& grains, PairList& list);
   const ParticleView& view() const { return view_; }
   KernelWidth width() const { return laws_.width(); }
+  const Kernel& kernel() const { return kernel_; }
+  /// Under mixed precision: grains have moved otherwise than by the kernel.
+  void refresh();
+  std::size_t bytes() const { return mixed_.bytes(); }
 
   /// Evaluates the pairs of a range that starts and ends at multiples of PairList::lane: outputs, which begin
   /// at `out`, and, unless `keepHistory`, histories.
@@ -64,7 +69,7 @@ public:
   template <class Visit> void visitContacts(double dt, Visit&& visit) const;
 
 private:
-  void pickLoop();
+  void pickLoop(int material);
   void fillBlock(std::int64_t first, int count, double dt, ContactBlock& b, PairColumns& columns) const;
   void sumSpins(std::int64_t first, ContactBlock& b) const;    ///< for Law::ownTorque
   void writeTorques(const ContactBlock& b, double* out) const; ///< likewise
@@ -73,10 +78,11 @@ private:
   void reportOverlaps(std::int64_t first, Scratch& scratch) const;
 
   const LawStack& laws_;
-  const Kernel* kernel_ = nullptr;
+  Kernel kernel_{};
   FusedLaws fused_;
   FusedLoop fusedLoop_ = nullptr; ///< in place of the laws one by one
   ParticleView view_;
+  MixedRecords mixed_;
   GrainStore* grains_ = nullptr;
   PairList* list_ = nullptr;
   double overlapShare_ = 1e300, overlapLength_ = 1e300;

@@ -14,6 +14,9 @@ namespace sandglass {
 /// What the loop sees of grains and pairs. Records are `quads` times four doubles: x y z radius, velocity and
 /// 1/mass, radius times spin and 1/radius (GrainStore). Pairs, histories, outputs, slots: PairList.
 struct ParticleView {
+  /// Pairs whose histories stand side by side: number k of pair p is history[p / lane * lane * historySize +
+  /// k * lane + p % lane].
+  static constexpr int lane = 16;
   double* records = nullptr;
   int quads = 2;
   const std::int32_t* pairs = nullptr; ///< a and b in turns
@@ -22,14 +25,20 @@ struct ParticleView {
   std::uint8_t noShift = 0;       ///< the code of the box itself
   const std::uint8_t* material = nullptr;
   int materials = 1;
-  bool oneMaterial = true; ///< all grains are of material 0
+  bool oneMaterial = true; ///< all grains are of one
+  int oneType = 0;         ///< its pair with itself
   double* history = nullptr;
   int historySize = 0;
-  int outputQuads = 1; ///< force; with friction also torque over radius; with rolling also a couple
+  int outputQuads = 1;  ///< force; with friction also torque over radius; with rolling also a couple
+  int outputStride = 4; ///< doubles a pair: four a quad, or two where quads are of floats (mixed precision)
   const std::int32_t* places = nullptr; ///< eight a grain: (place in the ring << 1 | side)
   bool readsSpin = false, radiusArm = false;
   unsigned reads = 0;                       ///< LawColumns
   double oneRadius = 0, oneInverseMass = 0; ///< of all grains; 0 where they differ
+  // Mixed precision alone (mixed_records.h).
+  std::int32_t* mixed = nullptr;             ///< `quads` times four numbers a grain
+  const std::int32_t* mixedShifts = nullptr; ///< four numbers a code
+  double unit = 0, perUnit = 0;              ///< length of a fixed-point unit [m] and its inverse
 };
 
 /// Working columns of a block that no law sees.
@@ -51,7 +60,8 @@ struct Speeds {
 };
 
 struct Kernel {
-  /// Fills geometry, motion and history of `count` pairs from `first`; both are multiples of 8. Forces: zero.
+  /// Fills geometry, motion and history of `count` pairs from `first`; both are multiples of `lane`. Forces:
+  /// zero.
   void (*fill)(const ParticleView&, std::int64_t first, int count, ContactBlock&, PairColumns&);
   /// Writes histories (unless `keepHistory`) and outputs, which begin at `out`.
   void (*write)(const ParticleView&, std::int64_t first, const ContactBlock&, const PairColumns&,
@@ -61,6 +71,8 @@ struct Kernel {
   /// Kick and drift of a group: v += dt (f/m + g), x += dt v; `roll` by 5/2 dt/m (t + couple/radius).
   void (*move)(const ParticleView&, std::int64_t first, int count, const GroupSums&, double dt,
                const double* gravity, double speedLimit, Speeds&);
+  /// Makes the mixed records of `count` grains from `first` anew; null in double precision.
+  void (*narrow)(const ParticleView&, std::int64_t first, int count) = nullptr;
 };
 
 const Kernel& plainKernel();

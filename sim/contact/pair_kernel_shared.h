@@ -70,14 +70,14 @@ inline void fillExtras(const ParticleView& v, std::int64_t first, ContactBlock& 
   }
   if (v.reads & LawColumns::effectiveMass) LANES(c) b.effectiveMass[c] = 1.0 / p.inverseMass[c];
   b.oneType = v.oneMaterial;
-  b.type[0] = 0;
+  b.type[0] = v.oneType;
   if (!v.oneMaterial)
     for (int c = 0; c < b.size; ++c)
       b.type[c] = v.material[pairs[2 * c]] * v.materials + v.material[pairs[2 * c + 1]];
 }
 
 inline void fillHistory(const ParticleView& v, std::int64_t first, ContactBlock& b) {
-  const int lanes = 8;
+  constexpr int lanes = ParticleView::lane;
   for (int c = 0; c < b.size; c += lanes) {
     const double* from = v.history + (first + c) * v.historySize;
     for (int k = 0; k < v.historySize; ++k)
@@ -87,7 +87,7 @@ inline void fillHistory(const ParticleView& v, std::int64_t first, ContactBlock&
 }
 
 inline void writeHistory(const ParticleView& v, std::int64_t first, const ContactBlock& b) {
-  const int lanes = 8;
+  constexpr int lanes = ParticleView::lane;
   for (int c = 0; c < b.size; c += lanes) {
     double* to = v.history + (first + c) * v.historySize;
     for (int k = 0; k < v.historySize; ++k)

@@ -55,9 +55,9 @@ void gather(const std::vector<std::vector<PairListing::Extra>>& parts, std::int6
 
 } // namespace
 
-PairList::PairList(const Domain& domain, int historySize, int outputQuads, bool keepsLive)
-    : domain_(domain), historySize_(historySize), outputQuads_(outputQuads), keepsLive_(keepsLive),
-      memory_(static_cast<std::size_t>(outputQuads)) {
+PairList::PairList(const Domain& domain, int historySize, int outputStride, bool keepsLive)
+    : domain_(domain), historySize_(historySize), outputStride_(outputStride), keepsLive_(keepsLive),
+      memory_(1) {
   for (int k = 0; k < 3; ++k)
     periodic_ = periodic_ || domain.periodic[k];
   now_.groupExtras.assign(1, 0);
@@ -79,7 +79,7 @@ void PairList::build(GrainStore& grains, double range, Parallel& parallel,
   search(parallel);
   layOut();
   writeRows(grains, parallel);
-  const auto outputs = static_cast<std::size_t>(crossing_.end * outputQuads_);
+  const auto outputs = static_cast<std::size_t>((crossing_.end * outputStride_ + 3) / 4);
   if (memory_.size() < outputs) memory_.resize(outputs);
   link(parallel);
   findPlaces(parallel);

@@ -41,8 +41,8 @@ public:
     std::int64_t begin = 0, end = 0;
   };
 
-  /// outputQuads: quads (4 doubles) that the particle loop writes per pair.
-  PairList(const Domain& domain, int historySize, int outputQuads, bool keepsLive);
+  /// outputStride: doubles that the particle loop writes per pair, as ParticleView has it.
+  PairList(const Domain& domain, int historySize, int outputStride, bool keepsLive);
 
   /// Sets `listed.w` of the grains first .. last - 1, of one group. Called from several threads at once, for
   /// different groups. The largest value of all grains must stay what it was.
@@ -94,7 +94,7 @@ public:
   /// Where a pair's output stands during the sweep of chunk c.
   const double* outputOf(std::int64_t pair, int c, const double* ring) const {
     const std::int64_t mine = pair - chunkPairs_[c].begin;
-    return mine >= 0 ? ring + (mine & (window_ - 1)) * 4 * outputQuads_ : &memory_[pair * outputQuads_].x;
+    return mine >= 0 ? ring + (mine & (window_ - 1)) * outputStride_ : &memory_[0].x + pair * outputStride_;
   }
 
   // All contacts of a grain, by which the next listing finds histories: entries are (pair << 1 | 1 when the
@@ -109,13 +109,13 @@ public:
   double* history() { return now_.history.data(); }
   double historyOf(std::int64_t p, int k) const { return now_.history[placeOf(p, k)]; }
   void setHistory(std::int64_t p, int k, double value) { now_.history[placeOf(p, k)] = value; }
-  /// Outputs of pairs between chunks: quad k of pair p is crossingOutput()[p * outputQuads + k].
-  Quad* crossingOutput() { return memory_.data(); }
+  /// Outputs of pairs between chunks: those of pair p begin at p * outputStride.
+  double* crossingOutput() { return &memory_[0].x; }
   std::uint8_t* live() {
     return keepsLive_ ? now_.live.data() : nullptr;
   } ///< 1: in range of a law with events; null unless keepsLive
   int historySize() const { return historySize_; }
-  int outputQuads() const { return outputQuads_; }
+  int outputStride() const { return outputStride_; }
 
   /// For checkpoints: the arrays that cannot be made again from the positions at listing time.
   AlignedVector<double>& historyArray() { return now_.history; }
@@ -146,7 +146,7 @@ private:
 
   Domain domain_;
   bool periodic_ = false;
-  int historySize_, outputQuads_;
+  int historySize_, outputStride_;
   bool keepsLive_;
   PairListing now_, past_; ///< past_: the listing before, while histories are carried, but for the histories
   std::int64_t size_ = 0;

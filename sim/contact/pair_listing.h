@@ -3,6 +3,7 @@
 
 #include "sim/base/aligned.h"
 #include "sim/contact/image_codes.h"
+#include "sim/contact/pair_kernel.h"
 
 #include <array>
 #include <cstdint>
@@ -11,7 +12,7 @@
 namespace sandglass {
 
 struct PairListing {
-  static constexpr int lane = 8, group = 32, slotCount = 8;
+  static constexpr int lane = ParticleView::lane, group = 32, slotCount = 8;
   struct Pair {
     std::int32_t a = 0, b = 0;
   };

@@ -168,6 +168,7 @@ struct AccuracySpec {
   std::optional<double> timeStep; ///< [s], when the scene fixes it
   double stiffnessScale = 1;      ///< of all contacts; 1: as the laws say
   bool semiImplicit = false;      ///< velocities are those of the full step, and errors of first order
+  bool mixedPrecision = false;    ///< pairs in single precision, sums and motion in double
   bool fastArithmetic = false;    ///< roots and quotients to two units in the last place
   double skin = 0;                ///< list skin as a share of the mean grain diameter
   double maximumOverlap = 0;      ///< share of the smaller radius at which the run stops

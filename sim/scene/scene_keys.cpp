@@ -353,6 +353,13 @@ const Keys& accuracyKeys() {
        .fallback = 1.0,
        .minimum = 1e-6,
        .maximum = 1e6},
+      {.name = "precision",
+       .type = text,
+       .unit = "1",
+       .description = "mixed: pairs in single precision, overlaps to 1e-9 of a diameter; sums and motion in "
+                      "double; for common laws alone",
+       .fallback = std::string("double"),
+       .choices = {"double", "mixed"}},
       {.name = "arithmetic",
        .type = text,
        .unit = "1",

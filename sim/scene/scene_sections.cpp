@@ -320,7 +320,9 @@ void load(const Parameters& values, AccuracySpec& accuracy) {
   get(values, "steps_per_contact", accuracy.stepsPerContact);
   get(values, "time_step", accuracy.timeStep);
   get(values, "stiffness_scale", accuracy.stiffnessScale);
-  std::string arithmetic;
+  std::string precision, arithmetic;
+  get(values, "precision", precision);
+  accuracy.mixedPrecision = precision == "mixed";
   get(values, "arithmetic", arithmetic);
   accuracy.fastArithmetic = arithmetic == "fast";
   std::string integrator;
@@ -337,6 +339,7 @@ Parameters store(const AccuracySpec& accuracy) {
   values.set("steps_per_contact", accuracy.stepsPerContact);
   put(values, "time_step", accuracy.timeStep);
   values.set("stiffness_scale", accuracy.stiffnessScale);
+  values.set("precision", std::string(accuracy.mixedPrecision ? "mixed" : "double"));
   values.set("arithmetic", std::string(accuracy.fastArithmetic ? "fast" : "portable"));
   values.set("integrator", std::string(accuracy.semiImplicit ? "semi_implicit" : "leapfrog"));
   values.set("skin", accuracy.skin);

@@ -9,11 +9,21 @@ namespace {
 struct Width256 {
   using V = __m256d;
   using Arithmetic = ExactAvx2;
-  static constexpr int lanes = 4;
+  using Real = double;
+  static constexpr int lanes = 4, quad = 4;
+  struct Reach {
+    V radii;
+    SANDGLASS_LOOP V overlap(V distance) const { return radii - distance; }
+    /// Whoever is nearer than this may touch once the root is rounded.
+    SANDGLASS_LOOP bool mayTouch(V squared) const {
+      return _mm256_movemask_pd(
+                 Arithmetic::above(radii * radii * Arithmetic::all<V>(1.0 + 1e-12), squared)) != 0;
+    }
+  };
   template <bool turning>
-  SANDGLASS_LOOP static Vector3<V> places(const ParticleView& v, std::int64_t p, V& radii) {
+  SANDGLASS_LOOP static Vector3<V> places(const ParticleView& v, std::int64_t p, Reach& reach) {
     const Columns at = placesOfFour<turning>(v, p);
-    radii = at.w;
+    reach.radii = at.w;
     return {at.x, at.y, at.z};
   }
   template <bool turning>
@@ -24,9 +34,14 @@ struct Width256 {
     if constexpr (turning) roll = {m.roll.x, m.roll.y, m.roll.z};
     return {m.motion.x, m.motion.y, m.motion.z};
   }
-  SANDGLASS_LOOP static bool any(V mask) { return _mm256_movemask_pd(mask) != 0; }
   SANDGLASS_LOOP static V read(const double* from) { return _mm256_loadu_pd(from); }
   SANDGLASS_LOOP static void write(double* to, V value) { _mm256_storeu_pd(to, value); }
+  SANDGLASS_LOOP static V recall(const double* from) { return read(from); }
+  SANDGLASS_LOOP static void keep(double* to, V value) { write(to, value); }
+  template <int quads> SANDGLASS_LOOP static void clear(double* out) {
+    for (int k = 0; k < lanes * quad * quads; k += lanes)
+      write(out + k, _mm256_setzero_pd());
+  }
   template <int quads>
   SANDGLASS_LOOP static void store(double* out, const Vector3<V>& f, const Vector3<V>& t) {
     scatter(f.x, f.y, f.z, out, 4 * quads);

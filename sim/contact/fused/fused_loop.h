@@ -1,9 +1,11 @@
 #pragma once
-// The text of all fused loops. `W` is a register width: its vector `V` of `lanes` doubles, load() of that
-// many pairs from grain records, store() to outputs, and its arithmetic.
+// The text of all fused loops. `W` is a register width: its vector `V` of `lanes` numbers `Real`, places()
+// and motions() of that many pairs from grain records, store() to outputs, and its arithmetic. `Reach` of a
+// register of pairs is what tells, with their distances, how far they overlap.
 
 #include "sim/contact/contact_geometry.h"
 #include "sim/contact/fused/fused_laws.h"
+#include "sim/contact/laws/narrowed.h"
 
 namespace sandglass {
 
@@ -11,11 +13,16 @@ namespace {
 
 /// What the passes over a block hand on. Three passes with short chains of dependent operations are a quarter
 /// faster than one with a long chain, of which a processor sees no more than two turns at a time.
-struct Staged {
+template <class Real> struct Staged {
   static constexpr int capacity = ContactBlock::capacity;
-  alignas(64) double nx[capacity], ny[capacity], nz[capacity], overlap[capacity], vn[capacity];
-  alignas(64) double slipX[capacity], slipY[capacity], slipZ[capacity], arm[capacity], mass[capacity];
+  alignas(64) Real nx[capacity], ny[capacity], nz[capacity], overlap[capacity], vn[capacity];
+  alignas(64) Real slipX[capacity], slipY[capacity], slipZ[capacity], arm[capacity], mass[capacity];
 };
+
+/// Where the histories of pair p begin: three numbers, `lane` places apart.
+SANDGLASS_LOOP double* springOf(const ParticleView& v, std::int64_t p) {
+  return v.history + p / ParticleView::lane * 3 * ParticleView::lane + p % ParticleView::lane;
+}
 
 /// Pairs none of which touches: no force, no history.
 template <class W, bool turning>
@@ -23,39 +30,40 @@ void rest(const ParticleView& v, std::int64_t p, bool keepHistory, double* out) 
   const auto zero = W::Arithmetic::template all<typename W::V>(0.0);
   if (turning && !keepHistory)
     for (int k = 0; k < 3; ++k)
-      W::write(v.history + p / 8 * 24 + p % 8 + 8 * k, zero);
-  for (int k = 0; k < W::lanes * (turning ? 8 : 4); k += W::lanes)
-    W::write(out + k, zero);
+      W::keep(springOf(v, p) + ParticleView::lane * k, zero);
+  W::template clear<turning ? 2 : 1>(out);
 }
 
 template <class W, FusedLaws::Normal kind, bool turning, bool project, Dashpot dashpot>
 double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t first, std::int64_t last,
                  double dt, bool keepHistory, double* out) {
   using V = typename W::V;
+  using Real = typename W::Real;
   using A = typename W::Arithmetic;
   using Normal = FusedLaws::Normal;
   constexpr bool massive = kind == Normal::linearOfMass || kind == Normal::hertz || dashpot == Dashpot::rate;
-  const LinearConstants<double> linear = laws.linear;
-  const HertzConstants<double> hertz = laws.hertz;
-  const SpringConstants<double> spring = laws.spring;
+  const auto linear = narrowed<LinearConstants<Real>, Real>(laws.linear);
+  const auto hertz = narrowed<HertzConstants<Real>, Real>(laws.hertz);
+  const auto spring = narrowed<SpringConstants<Real>, Real>(laws.spring);
+  constexpr int outputQuads = turning ? 2 : 1, stride = W::quad * outputQuads;
   const V zero = A::template all<V>(0.0), one = A::template all<V>(1.0);
   const V radius = A::template all<V>(v.oneRadius * v.oneRadius / (v.oneRadius + v.oneRadius));
   const bool radiusArm = laws.radiusArm;
   const int count = static_cast<int>(last - first);
-  Staged b;
+  Staged<Real> b;
   V deepest = zero;
   // Roots and quotients take long: those of the next pairs are begun before these are used.
   struct Ahead {
     bool near;
     Vector3<V> apart, motion, roll;
-    V radii, inverseMass, distance, inverse;
+    typename W::Reach reach;
+    V inverseMass, distance, inverse;
   };
   const auto begin = [&](int c, Ahead& a) SANDGLASS_LAMBDA {
-    a.apart = W::template places<turning>(v, first + c, a.radii);
+    a.apart = W::template places<turning>(v, first + c, a.reach);
     a.motion = W::template motions<turning>(v, first + c, a.inverseMass, a.roll);
     const V squared = dot<A>(a.apart, a.apart);
-    // Whoever is nearer than this may touch once the root is rounded.
-    a.near = W::any(A::above(a.radii * a.radii * A::template all<V>(1.0 + 1e-12), squared));
+    a.near = a.reach.mayTouch(squared);
     a.inverse = A::overRoot(one, squared, a.distance);
   };
   int active[ContactBlock::capacity / W::lanes], actives = 0;
@@ -65,12 +73,12 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
     const Ahead now = next;
     if (c + W::lanes < count) begin(c + W::lanes, next);
     if (!now.near) {
-      rest<W, turning>(v, first + c, keepHistory, out + c * (turning ? 8 : 4));
+      rest<W, turning>(v, first + c, keepHistory, out + c * stride);
       continue;
     }
     active[actives++] = c;
     const Vector3<V> n = times(now.inverse, now.apart);
-    const V overlap = now.radii - now.distance;
+    const V overlap = now.reach.overlap(now.distance);
     deepest = A::larger(deepest, overlap);
     W::write(b.nx + c, n.x);
     W::write(b.ny + c, n.y);
@@ -78,7 +86,7 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
     W::write(b.overlap + c, overlap);
     V arm = one;
     if (turning && !radiusArm) {
-      arm = A::over(now.distance, now.radii);
+      arm = A::over(now.distance, now.reach.radii);
       W::write(b.arm + c, arm);
     }
     const ContactMotion<V> contact = contactMotion<A, turning>(n, now.motion, now.roll, arm);
@@ -106,26 +114,28 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       normal = hertzForce<A, true, true>(hertz, overlap, vn, radius, mass);
     if constexpr (!turning) {
       const Vector3<V> force = times(normal.force, n);
-      W::template store<1>(out + 4 * c, force, force);
+      W::template store<1>(out + stride * c, force, force);
     } else {
-      double* history = v.history + p / 8 * 24 + p % 8;
-      Vector3<V> s{W::read(history), W::read(history + 8), W::read(history + 16)};
+      double* history = springOf(v, p);
+      constexpr int lane = ParticleView::lane;
+      Vector3<V> s{W::recall(history), W::recall(history + lane), W::recall(history + 2 * lane)};
       const Vector3<V> slip{W::read(b.slipX + c), W::read(b.slipY + c), W::read(b.slipZ + c)};
-      const Vector3<V> ft = springForce<A, project, dashpot>(spring, n, slip, overlap, normal, mass, dt, s);
+      const Vector3<V> ft =
+          springForce<A, project, dashpot>(spring, n, slip, overlap, normal, mass, static_cast<Real>(dt), s);
       if (!keepHistory) {
-        W::write(history, s.x);
-        W::write(history + 8, s.y);
-        W::write(history + 16, s.z);
+        W::keep(history, s.x);
+        W::keep(history + lane, s.y);
+        W::keep(history + 2 * lane, s.z);
       }
       V arm = one;
       if (!radiusArm) arm = W::read(b.arm + c);
-      W::template store<2>(out + 8 * c, plus<A>(ft, normal.force, n), contactTorque<A>(n, arm, ft));
+      W::template store<2>(out + stride * c, plus<A>(ft, normal.force, n), contactTorque<A>(n, arm, ft));
     }
   }
-  alignas(64) double each[W::lanes];
+  alignas(64) Real each[W::lanes];
   W::write(each, deepest);
   double most = 0.0;
-  for (const double o : each)
+  for (const Real o : each)
     most = o > most ? o : most;
   return most;
 }
@@ -155,6 +165,22 @@ template <class W> FusedLoop pickFusedLoop(const FusedLaws& laws) {
     if (laws.normal == Normal::hertz) return fusedLoop<W, Normal::hertz, true, false, coefficient>;
   }
   return nullptr;
+}
+
+/// As pickFusedLoop, and for what has none a loop that reads each pair's mass and has all dashpots: the same
+/// forces, though not the bits of the laws one by one.
+template <class W> FusedLoop pickGeneralLoop(const FusedLaws& laws) {
+  using Normal = FusedLaws::Normal;
+  using Tangential = FusedLaws::Tangential;
+  if (const FusedLoop own = pickFusedLoop<W>(laws)) return own;
+  if (laws.normal == Normal::other || laws.tangential == Tangential::other) return nullptr;
+  const bool hertz = laws.normal == Normal::hertz;
+  if (laws.tangential == Tangential::none) return fusedLoop<W, Normal::hertz, false, false, Dashpot::none>;
+  if (laws.project)
+    return hertz ? fusedLoop<W, Normal::hertz, true, true, Dashpot::rate>
+                 : fusedLoop<W, Normal::linearOfMass, true, true, Dashpot::rate>;
+  return hertz ? fusedLoop<W, Normal::hertz, true, false, Dashpot::rate>
+               : fusedLoop<W, Normal::linearOfMass, true, false, Dashpot::rate>;
 }
 
 } // namespace

@@ -72,7 +72,7 @@ public:
 
   void fuse(FusedLaws& laws) const override {
     laws.normal = tsuji_ ? FusedLaws::Normal::hertz : FusedLaws::Normal::other;
-    laws.hertz = table_[0];
+    laws.hertz = table_[laws.type];
   }
 
   unsigned reads() const override {

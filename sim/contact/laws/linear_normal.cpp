@@ -76,7 +76,7 @@ public:
 
   void fuse(FusedLaws& laws) const override {
     laws.normal = constantDamping_ ? FusedLaws::Normal::linear : FusedLaws::Normal::linearOfMass;
-    laws.linear = table_[0];
+    laws.linear = table_[laws.type];
   }
 
   unsigned reads() const override { return constantDamping_ ? 0u : unsigned{effectiveMass}; }

@@ -77,7 +77,7 @@ public:
     laws.dashpot = dashpot();
     laws.project = project_.value();
     laws.radiusArm = fullArm_.value();
-    laws.spring = table_[0];
+    laws.spring = table_[laws.type];
   }
 
   unsigned reads() const override { return rated_ && !oneMass_ ? unsigned{effectiveMass} : 0u; }

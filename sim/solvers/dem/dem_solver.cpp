@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/grains/seeding.h"
+#include "sim/solvers/dem/mixed_checks.h"
 #include "sim/solvers/dem/step_rule.h"
 #include "sim/walls/wall_registry.h"
 
@@ -42,13 +43,14 @@ LawStack stackWith(const Scene& scene, const std::vector<std::shared_ptr<const L
 DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
                      const std::vector<std::shared_ptr<const Law>>& added)
     : scene_(scene), laws_(stackWith(scene, added)), parallel_(options.threads),
-      list_(scene.domain, laws_.historySize(), laws_.outputQuads(), laws_.hasEvents()), pairForces_(laws_),
+      list_(scene.domain, laws_.historySize(), laws_.outputStride(), laws_.hasEvents()), pairForces_(laws_),
       wallContacts_(laws_), across_(laws_, scene.sector()), fields_(scene),
       loop_(grains_, list_, pairForces_, wallContacts_, across_, fields_, parallel_), frozen_(scene),
       gravity_(scene.gravity), lives_(scene) {
   if (across_.used() && laws_.hasEvents())
     throw InputError("a wedge cannot be simulated with laws that move quantities from grain to grain across "
                      "a gap; simulate the whole circle");
+  if (laws_.mixed()) checkMixedPrecision(scene, laws_);
   const StepChoice choice = chooseStep(scene, laws_);
   if (choice.step > choice.stableLimit)
     throw InputError(fmt::format(
@@ -288,6 +290,7 @@ void DemSolver::prepare() {
 
 void DemSolver::advance(std::int64_t steps) {
   prepare();
+  pairForces_.refresh();
   placeWalls(walls_, time(), dt_);
   for (std::int64_t k = 0; k < steps; ++k)
     stepOnce();
@@ -324,6 +327,7 @@ void DemSolver::stepOnce() {
   if (!events.empty()) applyEvents(events);
   if (drag_ > 0) damp();
   if (frozen_.any()) frozen_.advance(grains_, loop_, dt_, step_ == 0 ? 0.0 : dt_);
+  if (drag_ > 0 || frozen_.any()) pairForces_.refresh();
   ++step_;
   placeWalls(walls_, time(), dt_);
   atFullStep_.valid = false;
@@ -437,7 +441,7 @@ std::vector<std::int32_t> DemSolver::idOrder() const {
 double DemSolver::bytesPerGrain() const {
   if (grains_.size() == 0) return static_cast<double>(grains_.bytesPerGrain());
   return static_cast<double>(grains_.bytesPerGrain()) +
-         static_cast<double>(list_.bytes()) / static_cast<double>(grains_.size());
+         static_cast<double>(list_.bytes() + pairForces_.bytes()) / static_cast<double>(grains_.size());
 }
 
 } // namespace sandglass

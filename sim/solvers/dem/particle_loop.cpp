@@ -34,18 +34,21 @@ void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, const 
                             GroupSums& sums) const {
   const std::int64_t first = g * group;
   const ParticleView& view = pairs_.view();
-  kernelOf(pairs_.width()).sum(view, first, static_cast<int>(last - first), ring, sums);
+  pairs_.kernel().sum(view, first, static_cast<int>(last - first), ring, sums);
   const PairList::Range further = list_.groupFurther(g);
   for (std::int64_t e = further.begin; e < further.end; ++e) {
     const PairList::Extra& extra = list_.further()[e];
     double* to = sums.at[extra.grain - first];
     const double* out = list_.outputOf(extra.entry >> 1, chunk, ring);
     const double sign = extra.entry & 1 ? -1.0 : 1.0;
-    for (int q = 0; q < view.outputQuads; ++q) {
-      const double factor = q == 1 ? 1.0 : sign;
-      for (int k = 0; k < 4; ++k) // one register; the last is zero
-        to[4 * q + k] += factor * out[4 * q + k];
-    }
+    const auto add = [&](const auto* numbers) {
+      for (int q = 0; q < view.outputQuads; ++q) {
+        const double factor = q == 1 ? 1.0 : sign;
+        for (int k = 0; k < 4; ++k) // one register; the last is zero
+          to[4 * q + k] += factor * numbers[4 * q + k];
+      }
+    };
+    view.mixed ? add(reinterpret_cast<const float*>(out)) : add(out);
   }
   walls_.addTo(sums, grains_, first, last);
   across_.addTo(sums, grains_, first, last);
@@ -54,7 +57,7 @@ void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, const 
 template <class Done>
 void ParticleLoop::sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done) {
   const PairList::Range grains = list_.chunkGrains(chunk), pairs = list_.chunkPairs(chunk);
-  const std::int64_t stride = 4 * list_.outputQuads(), mask = list_.window() - 1;
+  const std::int64_t stride = list_.outputStride(), mask = list_.window() - 1;
   const auto zero = static_cast<std::size_t>(list_.window() * stride);
   if (scratch.ring.size() < zero + stride) scratch.ring.resize(zero + stride);
   std::fill_n(scratch.ring.begin() + zero, stride, 0.0);
@@ -80,7 +83,7 @@ void ParticleLoop::crossing(double dt, bool keepHistory) {
         PairForces::Scratch& scratch = scratchOfThread();
         const std::int64_t begin = pairs.begin + first * piece;
         pairs_.evaluate({begin, std::min(pairs.begin + last * piece, pairs.end)}, dt, keepHistory, scratch,
-                        &list_.crossingOutput()[begin * list_.outputQuads()].x);
+                        list_.crossingOutput() + begin * list_.outputStride());
         const std::lock_guard lock(merge);
         events_.insert(events_.end(), scratch.events.begin(), scratch.events.end());
         deepest_.take(scratch.deepest.share, scratch.deepest.idA, scratch.deepest.idB, scratch.deepest.wall);
@@ -94,7 +97,7 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
   crossing(dt, false);
   std::mutex merge;
   std::atomic<bool> late{false}, bad{false};
-  const Kernel& kernel = kernelOf(pairs_.width());
+  const Kernel& kernel = pairs_.kernel();
   parallel_.forRange(list_.chunks(), 1, [&](std::int64_t firstChunk, std::int64_t lastChunk) {
     PairForces::Scratch& scratch = scratchOfThread();
     GroupSums sums;
@@ -109,6 +112,7 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
               Speeds speeds;
               kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt,
                           gravity.data(), speedLimit, speeds);
+              if (kernel.narrow) kernel.narrow(pairs_.view(), g * group, static_cast<int>(last - g * group));
               moved_[g] += dt * std::sqrt(speeds.x * speeds.x + speeds.y * speeds.y + speeds.z * speeds.z);
               tired = tired || moved_[g] > allowed_[g];
               wrong = wrong || speeds.bad;
@@ -141,13 +145,14 @@ void ParticleLoop::watchedForce(std::size_t k, Vec3& force, Vec3& torque) const 
   torque = Vec3::Zero();
   if (!grains_.turning) return;
   torque = grains_.place[watched_[k]].w * Vec3(s[4], s[5], s[6]);
-  if (list_.outputQuads() > 2) torque += Vec3(s[8], s[9], s[10]);
+  if (pairs_.view().outputQuads > 2) torque += Vec3(s[8], s[9], s[10]);
 }
 
 void ParticleLoop::forces(double dt, const Vec3& gravity, std::vector<Quad>& force,
                           std::vector<Quad>& torque) {
   force.assign(grains_.size(), {});
   torque.assign(grains_.turning ? grains_.size() : 0, {});
+  pairs_.refresh();
   std::vector<std::uint8_t> live;
   if (list_.live()) live = list_.liveArray();
   crossing(dt, true);
@@ -166,7 +171,7 @@ void ParticleLoop::forces(double dt, const Vec3& gravity, std::vector<Quad>& for
                 if (!grains_.turning) continue;
                 const double r = grains_.place[i].w;
                 torque[i] = {r * s[4], r * s[5], r * s[6], 0.0};
-                if (list_.outputQuads() > 2)
+                if (pairs_.view().outputQuads > 2)
                   torque[i] = {r * s[4] + s[8], r * s[5] + s[9], r * s[6] + s[10], 0.0};
               }
             });

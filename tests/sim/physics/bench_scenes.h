@@ -31,6 +31,7 @@ size = { distribution = "single", diameter = "2 mm" }
   double timeStep = 0;       ///< [s]; 0: from stepsPerContact
   double stepsPerContact = 50;
   double maximumOverlap = 0.5;
+  std::string accuracy; ///< further lines
 
   std::string text() const {
     return fmt::format(R"(
@@ -69,11 +70,11 @@ until = {{ duration = "1 s" }}
 steps_per_contact = {}
 maximum_overlap = {}
 {}
-)",
+{})",
                        gravity, lower, upper, periodic, density, elasticity, elasticity, normal, tangential,
                        rolling, wallNormal.empty() ? normal : wallNormal, tangential, rolling, species, walls,
                        firstDiameter, stepsPerContact, maximumOverlap,
-                       timeStep > 0 ? fmt::format("time_step = \"{:.17g} s\"", timeStep) : "");
+                       timeStep > 0 ? fmt::format("time_step = \"{:.17g} s\"", timeStep) : "", accuracy);
   }
   Scene scene() const { return parseScene(text(), "test"); }
 };

@@ -69,7 +69,7 @@ density = "3000 kg/m^3"
 
 /// Grains of one material: what the loops of their own (fused_laws.h) are for.
 Scene single(const std::string& normal, const std::string& tangential, double diameterOfB,
-             const std::string& arithmetic = "portable") {
+             const std::string& accuracy = "") {
   return falling(R"(
 [[material]]
 name = "glass"
@@ -80,7 +80,7 @@ poisson_ratio = 0.3
 between = ["glass", "glass"]
 normal = )" + normal +
                      "\ntangential = " + tangential,
-                 "glass", "glass", diameterOfB, "[accuracy]\narithmetic = \"" + arithmetic + "\"");
+                 "glass", "glass", diameterOfB, accuracy.empty() ? "" : "[accuracy]\n" + accuracy);
 }
 
 const std::string linearLaw = R"({ law = "linear", stiffness = "400 N/m", restitution = 0.7 })",
@@ -155,13 +155,31 @@ TEST_CASE("loops of their own give the plain kernel's bits over whole runs") {
   }
 }
 
+TEST_CASE("mixed precision has the same bits at every width over whole runs") {
+  const std::string spring = R"({ law = "spring", friction = 0.4)";
+  const std::vector<std::tuple<std::string, std::string, double>> cases{
+      {linearLaw, R"({ law = "none" })", 2},
+      {linearLaw, spring + " }", 1.4},
+      {linearLaw, spring + R"(, rotation = "project", arm = "radius" })", 2},
+      {linearLaw, spring + ", damping_ratio = 0.5 }", 1.4},
+      {linearLaw, spring + R"(, damping_rate = "100 1/s" })", 1.4},
+      {hertzLaw, R"({ law = "none" })", 2},
+      {hertzLaw, spring + R"(, rotation = "project", damping_ratio = 0.5 })", 2},
+      {hertzLaw, R"({ law = "mindlin", friction = 0.4 })", 2}};
+  for (const auto& [normal, tangential, second] : cases) {
+    CAPTURE(normal, tangential, second);
+    compareKernels(single(normal, tangential, second, "precision = \"mixed\""));
+  }
+}
+
 TEST_CASE("fast arithmetic errs by some units in the last place") {
   // Two units in a distance of 2 mm are 1e-18 m; 400 N/m turn them into 4e-16 N, which a grain of 5 mg gets
   // as 1e-10 m/s^2: beside accelerations of several m/s^2 that is 1e-10 of them, with some contacts a grain.
   const std::string spring = R"({ law = "spring", friction = 0.4 })",
                     mindlin = R"({ law = "mindlin", friction = 0.4 })";
   for (const auto& [normal, tangential] : {std::pair{linearLaw, spring}, std::pair{hertzLaw, mindlin}}) {
-    const Scene exact = single(normal, tangential, 2), fast = single(normal, tangential, 2, "fast");
+    const Scene exact = single(normal, tangential, 2),
+                fast = single(normal, tangential, 2, "arithmetic = \"fast\"");
     const double dt = DemSolver(exact, {1}).stepSize();
     const auto start = afterRun(exact, "avx512", static_cast<int>(0.15 / dt)); // they lie on the floor
     const auto after = [&](const Scene& scene) {
