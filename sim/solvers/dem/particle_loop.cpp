@@ -108,7 +108,7 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
               sumGroup(static_cast<int>(c), g, last, ring, sums);
               if (!watched_.empty()) keepWatched(g * group, last, sums);
               if (fields_.any())
-                fields_.addTo(sums, grains_, g * group, last, dt, gravity, list_.outputQuads() > 2, true);
+                fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, true);
               Speeds speeds;
               kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt,
                           gravity.data(), speedLimit, speeds);
@@ -164,7 +164,7 @@ void ParticleLoop::forces(double dt, const Vec3& gravity, std::vector<Quad>& for
             [&](std::int64_t g, std::int64_t last, const double* ring) {
               sumGroup(static_cast<int>(c), g, last, ring, sums);
               if (fields_.any())
-                fields_.addTo(sums, grains_, g * group, last, dt, gravity, list_.outputQuads() > 2, false);
+                fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, false);
               for (std::int64_t i = g * group; i < last; ++i) {
                 const double* s = sums.at[i - g * group];
                 force[i] = {s[0], s[1], s[2], 0.0};
