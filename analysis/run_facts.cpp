@@ -38,8 +38,11 @@ RunFacts factsOf(const Scene& scene) {
     }
   }
   facts.tank = tankOf(scene);
+  for (const auto& outlet : scene.outlets)
+    if (outlet.record && !facts.wayOut) facts.wayOut = outlet.normal.normalized();
   for (const auto& species : scene.species) {
     const double density = scene.material(species.material).density;
+    facts.densities.push_back(density);
     if (&species == &scene.species.front())
       facts.grainDensity = density;
     else if (density != facts.grainDensity)

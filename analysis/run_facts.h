@@ -28,6 +28,8 @@ struct RunFacts {
   std::optional<double> slotDepth;  ///< [m], of a slot along a periodic axis
   std::optional<VortexTank> tank;   ///< an upright round one
   double grainDensity = 0;          ///< [kg/m^3], where all species have the same; else 0
+  std::vector<double> densities;    ///< [kg/m^3] by species
+  std::optional<Vec3> wayOut;       ///< unit normal of the first outlet that records its grains
   std::string flowProbe;            ///< name of the first flow_rate probe, or empty
   std::string energyProbe;          ///< name of the first energies probe, or empty
 };

@@ -164,7 +164,7 @@ int analyze(AnalyzeOptions options) {
   }
   if (options.folder.empty()) throw InputError("name a folder for the results: -o DIR");
   const bool chosen = !options.kinds.empty() || options.packing || options.discharge || options.energies ||
-                      options.beverloo || options.contacts || options.residence || options.heap ||
+                      options.beverloo || options.contacts || options.residence || options.outflow || options.heap ||
                       !options.impactMap.empty();
   if (!chosen) options.all = true;
   if (options.sources.empty() && options.impactMap.empty())
@@ -198,6 +198,7 @@ int analyze(AnalyzeOptions options) {
     attempt(options.contacts, "contacts", source.prefix, [&] { analyzeContacts(source, options, files); });
     attempt(options.residence, "residence times", source.prefix,
             [&] { analyzeResidence(source, options, files); });
+    attempt(options.outflow, "outflow", source.prefix, [&] { analyzeOutflow(source, options, files); });
     attempt(options.heap, "heap angle", source.prefix, [&] { analyzeHeap(source, options, files); });
     for (const auto& kind : analysisKinds())
       attempt(std::find(options.kinds.begin(), options.kinds.end(), kind.name) != options.kinds.end(),
@@ -236,6 +237,7 @@ void addAnalyze(CLI::App& app, Action& action) {
   command->add_flag("--beverloo", o.beverloo, "Beverloo's law through the rates of several runs");
   command->add_flag("--contacts", o.contacts, "distributions of overlaps and contact forces");
   command->add_flag("--residence", o.residence, "residence times of the grains that an outlet recorded");
+  command->add_flag("--outflow", o.outflow, "where and how fast recorded grains left, and the mixture that came");
   command->add_flag("--heap", o.heap, "angle of the heaps that a slot hopper keeps");
   command
       ->add_option("--impact-map", o.impactMap,

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of `sandglass analyze` that look at contacts, residence times, heaps and single impacts.
+// The parts of `sandglass analyze` that look at contacts, residence times, outflow, heaps and single impacts.
 
 #include "app/cli/analyze_source.h"
 #include "app/cli/result_files.h"
@@ -9,6 +9,7 @@ namespace sandglass::cli {
 // Each writes its results, prints its key numbers, and throws InputError when they cannot be had.
 void analyzeContacts(const Source& source, const AnalyzeOptions& options, ResultFiles& files);
 void analyzeResidence(const Source& source, const AnalyzeOptions& options, ResultFiles& files);
+void analyzeOutflow(const Source& source, const AnalyzeOptions& options, ResultFiles& files);
 void analyzeHeap(const Source& source, const AnalyzeOptions& options, ResultFiles& files);
 void analyzeImpacts(const AnalyzeOptions& options, ResultFiles& files);
 

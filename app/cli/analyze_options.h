@@ -16,7 +16,7 @@ struct AnalyzeOptions {
   std::vector<std::string> sources;
   std::string folder;
   bool packing = false, discharge = false, energies = false, beverloo = false, all = false;
-  bool contacts = false, residence = false, heap = false;
+  bool contacts = false, residence = false, outflow = false, heap = false;
   std::string impactMap;  ///< a scene
   double impactSpeed = 0; ///< [m/s]; 0: slow
   bool csvOnly = false;

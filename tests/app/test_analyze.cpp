@@ -106,6 +106,7 @@ TEST_CASE("what analyze refuses, it refuses with a sentence", "[analyze]") {
       {"--beverloo --range 0.05:0.95", "at least two different outlets"},
       {"--contacts", "has no contacts: set contacts = true"},
       {"--residence", "there is no discharged.csv: give an outlet of the scene record = true"},
+      {"--outflow", "there is no discharged.csv: give an outlet of the scene record = true"},
       {"--heap", "but a heap angle needs 8 on each side"},
       {"--impact-map nosuch.toml", "nosuch.toml: there is no such scene file"},
   };
