@@ -37,6 +37,10 @@ QString describe(const EventSpec& event) {
   if (event.drag) what << QString("drag %1 1/s").arg(*event.drag);
   for (const auto& wall : event.removeWalls)
     what << QString("wall %1 removed").arg(QString::fromStdString(wall));
+  for (const auto& wall : event.paceWalls)
+    what << QString("wall %1 at %2 times its pace")
+                .arg(QString::fromStdString(wall))
+                .arg(event.pace.value_or(1));
   for (const auto& [field, factor] : event.fields)
     what << QString("field %1 at %2 times its strength").arg(QString::fromStdString(field)).arg(factor);
   if (event.endStage) what << "stage ended";
@@ -103,6 +107,22 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   gate->addWidget(walls_, 1);
   gate->addWidget(removeWall_);
   form->addRow("Wall", gate);
+  auto* move = new QHBoxLayout;
+  movers_ = new QComboBox(this);
+  movers_->setObjectName("wallToPace");
+  movers_->setToolTip("A wall with a motion");
+  wallPace_ = new QDoubleSpinBox(this);
+  wallPace_->setObjectName("wallPace");
+  wallPace_->setRange(0, 100);
+  wallPace_->setValue(1);
+  wallPace_->setSingleStep(0.25);
+  wallPace_->setPrefix(QString(QChar(0x00D7)) + " ");
+  wallPace_->setToolTip("Pace of its motion, as a multiple of what the scene says; 0 holds it");
+  applyPace_ = button("applyPace", "Set", "From the next step on the motion goes at this pace");
+  move->addWidget(movers_, 1);
+  move->addWidget(wallPace_);
+  move->addWidget(applyPace_);
+  form->addRow("Motion", move);
   auto* blow = new QHBoxLayout;
   fields_ = new QComboBox(this);
   fields_->setObjectName("fieldToChange");
@@ -136,6 +156,9 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   connect(applyDrag_, &QPushButton::clicked, this, [this] { Q_EMIT changeWanted({.drag = drag_->value()}); });
   connect(removeWall_, &QPushButton::clicked, this,
           [this] { Q_EMIT changeWanted({.removeWalls = {walls_->currentText().toStdString()}}); });
+  connect(applyPace_, &QPushButton::clicked, this, [this] {
+    Q_EMIT changeWanted({.paceWalls = {movers_->currentText().toStdString()}, .pace = wallPace_->value()});
+  });
   connect(applyField_, &QPushButton::clicked, this, [this] {
     Q_EMIT changeWanted({.fields = {{fields_->currentText().toStdString(), fieldFactor_->value()}}});
   });
@@ -172,6 +195,11 @@ void RunPanel::setScene(const std::optional<Scene>& scene) {
       names << QString::fromStdString(wall.name);
     walls_->clear();
     walls_->addItems(names);
+    QStringList moving, offered;
+    for (const auto& wall : scene_->walls)
+      if (!wall.motion.kind.empty()) moving << QString::fromStdString(wall.name);
+    for (int k = 0; k < movers_->count(); ++k)
+      offered << movers_->itemText(k);
     QStringList blowing, known;
     for (const auto& field : scene_->fields)
       blowing << QString::fromStdString(field.name);
@@ -181,6 +209,11 @@ void RunPanel::setScene(const std::optional<Scene>& scene) {
       fields_->clear();
       fields_->addItems(blowing);
       fieldFactor_->setValue(1);
+    }
+    if (moving != offered) {
+      movers_->clear();
+      movers_->addItems(moving);
+      wallPace_->setValue(1);
     }
   }
   showStages();
@@ -211,6 +244,7 @@ void RunPanel::setProgress(const std::optional<Progress>& progress, bool runs) {
   for (QWidget* w : {static_cast<QWidget*>(applyGravity_), static_cast<QWidget*>(applyDrag_),
                      static_cast<QWidget*>(endStage_), static_cast<QWidget*>(removeWall_)})
     w->setEnabled(runs && (w != removeWall_ || walls_->count() > 0));
+  applyPace_->setEnabled(runs && movers_->count() > 0);
   applyField_->setEnabled(runs && fields_->count() > 0);
   const std::string stage = progress ? progress->stage : stage_;
   if (stage == stage_ && runs == runs_ && complete == complete_) return;

@@ -39,10 +39,10 @@ private:
   void showEvents();
 
   QListWidget* stages_;
-  QComboBox *speed_, *walls_, *fields_;
+  QComboBox *speed_, *walls_, *movers_, *fields_;
   std::array<QDoubleSpinBox*, 3> gravity_;
-  QDoubleSpinBox *drag_, *fieldFactor_;
-  QPushButton *applyField_, *applyGravity_, *applyDrag_, *removeWall_, *endStage_, *branch_;
+  QDoubleSpinBox *drag_, *wallPace_, *fieldFactor_;
+  QPushButton *applyPace_, *applyField_, *applyGravity_, *applyDrag_, *removeWall_, *endStage_, *branch_;
   QLabel* events_;
   std::optional<Scene> scene_;
   std::string stage_;

@@ -71,6 +71,8 @@ void placeWalls(std::vector<SolverWall>& walls, double time, double dt) {
     const auto velocityAt = [&](double when) {
       const double elapsed = motion.elapsed(when, wall.marks);
       WallVelocity v = motion.velocity(elapsed, wall.restReference);
+      v.linear *= wall.marks.pace;
+      v.spin *= wall.marks.pace;
       if (!motion.running(when, wall.marks)) v.linear = v.spin = Vec3::Zero();
       return v;
     };
@@ -96,7 +98,8 @@ void markStage(std::vector<SolverWall>& walls, const std::string& stage, double 
 void allowTravel(std::vector<SolverWall>& walls, double dt, double skin, double meanDiameter, double radius) {
   for (SolverWall& wall : walls) {
     if (!wall.motion) continue;
-    const double speed = wall.motion->running(wall.time, wall.marks) ? wall.motion->topSpeed(radius) : 0.0;
+    const double speed =
+        wall.motion->running(wall.time, wall.marks) ? wall.marks.pace * wall.motion->topSpeed(radius) : 0.0;
     wall.allowance = 0.5 * skin + std::min(stepsOfTravel * dt * speed, mostTravel * meanDiameter);
     wall.listedTime = wall.time;
   }

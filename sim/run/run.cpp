@@ -166,6 +166,13 @@ void Run::change(EventSpec event) {
   for (const auto& name : event.removeWalls)
     if (std::none_of(walls.begin(), walls.end(), [&](const WallSpec& w) { return w.name == name; }))
       throw InputError(fmt::format("the scene has no wall '{}' to remove", name));
+  for (const auto& name : event.paceWalls)
+    if (std::none_of(walls.begin(), walls.end(),
+                     [&](const WallSpec& w) { return w.name == name && !w.motion.kind.empty(); }))
+      throw InputError(fmt::format("the scene has no wall '{}' with a motion whose pace could change", name));
+  if (event.paceWalls.empty() == event.pace.has_value() || !(event.pace.value_or(0) >= 0) ||
+      !(event.pace.value_or(0) <= 100))
+    throw InputError("the pace of walls is a number from 0 to 100");
   for (const FieldFactor& f : event.fields)
     if (!std::isfinite(f.factor) || std::none_of(impl_->scene.fields.begin(), impl_->scene.fields.end(),
                                                  [&](const FieldSpec& s) { return s.name == f.field; }))

@@ -66,6 +66,10 @@ bool StageControl::applyEvents() {
       solver_.removeWall(wall);
       what += fmt::format("; the wall '{}' is removed", wall);
     }
+    for (const auto& wall : event.paceWalls) {
+      solver_.setWallPace(wall, event.pace.value_or(1));
+      what += fmt::format("; the wall '{}' moves at {:.6g} times its pace", wall, event.pace.value_or(1));
+    }
     if (event.gravity) {
       solver_.setGravity(*event.gravity);
       watchdog_.gravityChanged(*event.gravity, solver_, solver_.energies());

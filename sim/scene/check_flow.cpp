@@ -99,8 +99,17 @@ void checkEvents(const Scene& scene, FaultList& faults) {
       if (std::none_of(scene.walls.begin(), scene.walls.end(),
                        [&](const WallSpec& w) { return w.name == name; }))
         faults.wrong(path + ".remove_walls", fmt::format("but the scene has no [[wall]] '{}'", name));
-    if (!event.gravity && !event.drag && event.removeWalls.empty() && event.fields.empty() && !event.endStage)
-      faults.about(path, "changes nothing; give it gravity, drag, remove_walls, fields or end_stage");
+    for (const auto& name : event.paceWalls)
+      if (std::none_of(scene.walls.begin(), scene.walls.end(),
+                       [&](const WallSpec& w) { return w.name == name && !w.motion.kind.empty(); }))
+        faults.wrong(path + ".pace_walls",
+                     fmt::format("but the scene has no [[wall]] '{}' with a motion", name));
+    if (event.pace.has_value() == event.paceWalls.empty())
+      faults.about(path, "changes the pace of walls by pace and pace_walls together; give both or neither");
+    if (!event.gravity && !event.drag && event.removeWalls.empty() && event.fields.empty() &&
+        event.paceWalls.empty() && !event.endStage)
+      faults.about(path,
+                   "changes nothing; give it gravity, drag, remove_walls, fields, pace_walls or end_stage");
   }
 }
 

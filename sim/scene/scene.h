@@ -124,6 +124,8 @@ struct EventSpec {
   std::optional<double> drag{};           ///< [1/s], until the next stage begins
   std::vector<std::string> removeWalls{}; ///< from now on
   std::vector<FieldFactor> fields{};      ///< from now on
+  std::vector<std::string> paceWalls{};   ///< whose motions go at another pace from now on
+  std::optional<double> pace{};           ///< as a multiple of what the scene gives them
   bool endStage = false;                  ///< the stage ends after this step
   bool operator==(const EventSpec&) const = default;
 };

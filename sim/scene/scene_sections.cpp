@@ -268,6 +268,8 @@ void load(const Parameters& values, EventSpec& event) {
   get(values, "drag", event.drag);
   get(values, "remove_walls", event.removeWalls);
   get(values, event.fields);
+  get(values, "pace_walls", event.paceWalls);
+  get(values, "pace", event.pace);
   get(values, "end_stage", event.endStage);
 }
 
@@ -278,6 +280,8 @@ Parameters store(const EventSpec& event) {
   put(values, "drag", event.drag);
   values.set("remove_walls", event.removeWalls);
   put(values, event.fields);
+  values.set("pace_walls", event.paceWalls);
+  put(values, "pace", event.pace);
   values.set("end_stage", event.endStage);
   return values;
 }

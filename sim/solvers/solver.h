@@ -44,6 +44,10 @@ public:
   /// Adds grains between steps.
   virtual void add(const std::vector<GrainSeed>& grains) = 0;
   virtual void removeWall(const std::string& name) = 0;
+  /// From now on the motion of this wall goes `pace` (0 or more) times as fast as the scene says. Part of
+  /// what save() gives. Throws InputError when there is no such wall, it has no motion, or it would get too
+  /// fast.
+  virtual void setWallPace(const std::string& name, double pace) = 0;
   /// From now on velocities and spins decay at this rate [1/s], beside all forces; 0: no more.
   virtual void setDrag(double rate) = 0;
   /// From now on grains fall so; the velocities of this instant stay. Part of what save() gives.

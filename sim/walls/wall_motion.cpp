@@ -152,17 +152,29 @@ MotionKind kind(const char* name, const char* description, std::vector<Parameter
 
 } // namespace
 
-double WallMotion::elapsed(double time, const MotionMarks& marks) const {
+/// Time on the clock at pace 1 and without an end by itself.
+double WallMotion::passed(double time, const MotionMarks& marks) const {
   const double began = clock_.stage.empty() ? 0.0 : marks.began;
   if (!(time > began)) return 0.0;
-  return std::clamp(std::min(time, marks.ended) - began - clock_.start, 0.0, clock_.duration);
+  return std::max(std::min(time, marks.ended) - began - clock_.start, 0.0);
+}
+
+double WallMotion::elapsed(double time, const MotionMarks& marks) const {
+  // At pace 1 from the beginning this is passed(), to the bit.
+  const double way = marks.pace * (passed(time, marks) - passed(marks.changed, marks));
+  return std::clamp(marks.shown + way, 0.0, clock_.duration);
+}
+
+void WallMotion::setPace(MotionMarks& marks, double pace, double time) const {
+  marks.shown = elapsed(time, marks);
+  marks.changed = time;
+  marks.pace = pace;
 }
 
 bool WallMotion::running(double time, const MotionMarks& marks) const {
   const double began = clock_.stage.empty() ? 0.0 : marks.began;
-  if (!(time >= began) || time >= marks.ended) return false;
-  const double passed = time - began - clock_.start;
-  return passed >= 0.0 && passed < clock_.duration;
+  if (!(time >= began) || time >= marks.ended || marks.pace == 0.0) return false;
+  return time - began - clock_.start >= 0.0 && elapsed(time, marks) < clock_.duration;
 }
 
 const std::vector<MotionKind>& motionKinds() {

@@ -25,6 +25,8 @@ struct MotionClock {
 struct MotionMarks {
   double began = std::numeric_limits<double>::infinity();
   double ended = std::numeric_limits<double>::infinity();
+  // How fast the clock goes: 0 stands still. It showed `shown` at the time `changed`, when that was set [s].
+  double pace = 1, changed = 0, shown = 0;
 };
 
 class WallMotion {
@@ -35,12 +37,14 @@ public:
   const MotionClock& clock() const { return clock_; }
   /// Time on the wall's clock [s].
   double elapsed(double time, const MotionMarks& marks) const;
+  /// The clock goes on from what it shows at `time`, `pace` (0 or more) times as fast as simulated time.
+  void setPace(MotionMarks& marks, double pace, double time) const;
   bool running(double time, const MotionMarks& marks) const;
 
   /// Pose after `elapsed` seconds of motion; continuous, and where the scene puts the wall for `elapsed` = 0
   /// but for an oscillation with a phase.
   virtual WallPose pose(double elapsed) const = 0;
-  /// Velocity while the clock runs. `reference` is the wall's point of reference in its own frame.
+  /// Velocity while the clock runs at pace 1. `reference` is the wall's point of reference in its own frame.
   virtual WallVelocity velocity(double elapsed, const Vec3& reference) const = 0;
   /// A point that the motion singles out for moments (on the axis of a rotation); false if none.
   virtual bool ownReference(Vec3&) const { return false; }
@@ -48,6 +52,8 @@ public:
   virtual double topSpeed(double radius) const = 0;
 
 private:
+  double passed(double time, const MotionMarks& marks) const;
+
   MotionClock clock_;
 };
 

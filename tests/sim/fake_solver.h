@@ -38,6 +38,7 @@ public:
     }
   }
   void removeWall(const std::string&) override { floor_ = false; }
+  void setWallPace(const std::string&, double) override {}
   void setDrag(double rate) override { drag_ = rate; }
   void setGravity(const Vec3& gravity) override { gravity_ = gravity; }
 

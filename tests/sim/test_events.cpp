@@ -10,6 +10,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 using namespace sandglass;
@@ -171,4 +173,118 @@ TEST_CASE("A run changed while it went on leaves a scene that gives the same bit
     REQUIRE_FALSE(sameBits(branched->load(branched->size() - 1)->position,
                            original->load(original->size() - 1)->position));
   }
+}
+
+namespace {
+
+/// Beads on a plate that goes up and down, in a box that is periodic to the sides.
+const char* const shaker = R"(
+title = "Shaker"
+seed = 5
+[domain]
+lower = ["0", "0", "-2 mm"]
+upper = ["12 mm", "12 mm", "40 mm"]
+periodic = ["x", "y"]
+[[material]]
+name = "glass"
+density = "2500 kg/m^3"
+[[contact]]
+between = ["glass", "glass"]
+normal = { law = "linear", collision_time = "5e-4 s", restitution = 0.8 }
+tangential = { law = "spring", friction = 0.3, stiffness_ratio = 0.2857142857142857 }
+[[species]]
+name = "bead"
+material = "glass"
+size = { distribution = "single", diameter = "2 mm" }
+[[wall]]
+name = "plate"
+kind = "plane"
+material = "glass"
+point = ["0", "0", "0"]
+normal = ["0", "0", "1"]
+motion = { kind = "oscillate", amplitude = ["0", "0", "1 mm"], frequency = "25 Hz" }
+[[fill]]
+kind = "lattice"
+species = "bead"
+lower = ["0", "0", "1 mm"]
+upper = ["12 mm", "12 mm", "9 mm"]
+structure = "sc"
+spacing = "2.4 mm"
+velocity_spread = ["0.05 m/s", "0.05 m/s", "0.05 m/s"]
+[[stage]]
+name = "shake"
+until = { duration = "0.1 s" }
+[output]
+frame_interval = "5 ms"
+checkpoint_interval = "7 ms"
+)";
+
+} // namespace
+
+TEST_CASE("A wall's motion goes on from where it is at the pace of an event", "[events]") {
+  const Scene scene =
+      parseScene(shaker, "shaker",
+                 {"accuracy.time_step=\"20 us\"", "event=[{step=500,pace_walls=[\"plate\"],pace=0.0},"
+                                                  "{step=1000,pace_walls=[\"plate\"],pace=2.0}]"});
+  Run run(scene, {});
+  int seen = 0;
+  run.onSavedFrame = [&](FramePtr frame) {
+    // 25 Hz with the clock of the wall: as the time up to 10 ms, held there to 20 ms, then twice as fast.
+    const double t = frame->time, clock = t < 0.01 ? t : t < 0.02 ? 0.01 : 0.01 + 2 * (t - 0.02);
+    const double phase = 2 * std::numbers::pi * 25 * clock;
+    const FrameWall& plate = frame->walls.at(0);
+    CHECK(plate.translation.z() == Approx(1e-3 * std::sin(phase)).margin(1e-12));
+    const double pace = t < 0.01 - 1e-9 ? 1 : t < 0.02 - 1e-9 ? 0 : 2;
+    CHECK(plate.velocity.z() ==
+          Approx(pace * 1e-3 * 2 * std::numbers::pi * 25 * std::cos(phase)).margin(1e-9));
+    ++seen;
+  };
+  run.execute();
+  CHECK(seen == 21);
+}
+
+TEST_CASE("The pace of a wall changed while a run went on gives the same bits again", "[events]") {
+  const TemporaryFolder folder("pace");
+  const Scene scene = parseScene(shaker, "shaker");
+  {
+    Run run(scene, into(folder / "live"));
+    int frames = 0;
+    run.onSavedFrame = [&](FramePtr) {
+      if (++frames == 5) run.change({.paceWalls = {"plate"}, .pace = 3.0});
+      if (frames == 9) run.change({.paceWalls = {"plate"}, .pace = 0.0});
+      if (frames == 13) run.change({.paceWalls = {"plate"}, .pace = 0.7});
+    };
+    run.execute();
+  }
+  const Scene kept = readScene((folder / "live" / "scene.toml").string());
+  REQUIRE(kept.events.size() == 3);
+  REQUIRE(kept.events[0].pace == 3.0);
+  auto options = into(folder / "again");
+  options.threads = 2;
+  Run(kept, options).execute();
+  requireSameFrames(folder / "live", folder / "again");
+  auto parts = into(folder / "parts");
+  parts.resume = true;
+  int stops = 0;
+  for (;; ++stops) {
+    REQUIRE(stops < 100);
+    Run part(kept, parts);
+    int frames = 0;
+    part.onSavedFrame = [&](FramePtr) {
+      if (++frames == 2 + stops % 3) part.stop();
+    };
+    if (part.execute() == RunOutcome::finished) break;
+  }
+  CHECK(stops > 3);
+  requireSameFrames(folder / "live", folder / "parts");
+}
+
+TEST_CASE("A pace that cannot be is refused with a sentence", "[events]") {
+  Run run(parseScene(shaker, "shaker"), {});
+  CHECK_THROWS_WITH(run.change({.paceWalls = {"lid"}, .pace = 1.0}),
+                    Catch::Contains("no wall 'lid' with a motion"));
+  CHECK_THROWS_WITH(run.change({.paceWalls = {"plate"}, .pace = -1.0}), Catch::Contains("from 0 to 100"));
+  CHECK_THROWS_WITH(run.change({.paceWalls = {"plate"}}), Catch::Contains("from 0 to 100"));
+  CHECK_THROWS_WITH(parseScene(shaker, "shaker", {"event=[{step=5,pace_walls=[\"plate\"]}]"}),
+                    Catch::Contains("give both or neither"));
 }

@@ -74,13 +74,16 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
   walls_ = makeSolverWalls(scene);
   atFullStep_.tallies.resize(walls_.size());
   wallRadius_ = farthestReach(walls_, scene.domain) + meanDiameter_ + skin_;
-  if (const double fastest = fastestWall(scene);
-      fastest * dt_ > scene.accuracy.maximumTravel * smallestRadius_)
+  refuseFastWalls(fastestWall(scene));
+}
+
+void DemSolver::refuseFastWalls(double fastest) const {
+  if (fastest * dt_ > scene_.accuracy.maximumTravel * smallestRadius_)
     throw InputError(fmt::format(
         "a wall moves at up to {:.3g} m/s, {:.3g} m in a step of {:.3g} s, more than {:g} times "
         "the smallest radius ({:.3g} m, accuracy.maximum_travel), and could jump over a grain; slow "
         "it down or lower time_step",
-        fastest, fastest * dt_, dt_, scene.accuracy.maximumTravel, smallestRadius_));
+        fastest, fastest * dt_, dt_, scene_.accuracy.maximumTravel, smallestRadius_));
 }
 
 void DemSolver::add(const std::vector<GrainSeed>& seeds) {
@@ -131,6 +134,18 @@ void DemSolver::removeWall(const std::string& name) {
       return;
     }
   throw InputError(fmt::format("there is no wall '{}' to remove", name));
+}
+
+void DemSolver::setWallPace(const std::string& name, double pace) {
+  for (SolverWall& w : walls_)
+    if (w.name == name && w.motion) {
+      refuseFastWalls(pace * w.motion->topSpeed(wallRadius_));
+      changeAhead(); // grains near it are listed for its new speed
+      w.motion->setPace(w.marks, pace, time());
+      placeWalls(walls_, time(), 0.0);
+      return;
+    }
+  throw InputError(fmt::format("there is no wall '{}' with a motion whose pace could change", name));
 }
 
 void DemSolver::setGravity(const Vec3& gravity) {

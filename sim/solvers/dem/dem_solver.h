@@ -31,6 +31,7 @@ public:
 
   void add(const std::vector<GrainSeed>& grains) override;
   void removeWall(const std::string& name) override;
+  void setWallPace(const std::string& name, double pace) override;
   void setDrag(double rate) override { drag_ = rate; }
   void setGravity(const Vec3& gravity) override;
   void setField(const std::string& name, double factor) override;
@@ -88,6 +89,7 @@ private:
   bool discharge(); ///< takes out what has passed an outlet; whether anything has
   void checkOverlap(const DeepestOverlap& deepest) const;
   [[noreturn]] void reportBadMotion() const;
+  void refuseFastWalls(double fastest) const; ///< [m/s]
   void checkEscapes() const;
   std::vector<std::int32_t> idOrder() const;
   /// [s] from the velocities in store to those of the full step.
