@@ -12,7 +12,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <tuple>
 
 namespace sandglass {
 
@@ -77,15 +76,6 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
   refuseFastWalls(fastestWall(scene));
 }
 
-void DemSolver::refuseFastWalls(double fastest) const {
-  if (fastest * dt_ > scene_.accuracy.maximumTravel * smallestRadius_)
-    throw InputError(fmt::format(
-        "a wall moves at up to {:.3g} m/s, {:.3g} m in a step of {:.3g} s, more than {:g} times "
-        "the smallest radius ({:.3g} m, accuracy.maximum_travel), and could jump over a grain; slow "
-        "it down or lower time_step",
-        fastest, fastest * dt_, dt_, scene_.accuracy.maximumTravel, smallestRadius_));
-}
-
 void DemSolver::add(const std::vector<GrainSeed>& seeds) {
   if (seeds.empty()) return;
   changeAhead();
@@ -124,68 +114,6 @@ void DemSolver::add(const std::vector<GrainSeed>& seeds) {
 void DemSolver::checkPromisedSizes() {
   for (std::size_t i = 0; i < grains_.size(); ++i)
     if (!laws_.asPromised(grains_.material[i], grains_.motion[i].w)) return laws_.allowAnySize(scene_);
-}
-
-void DemSolver::removeWall(const std::string& name) {
-  for (SolverWall& w : walls_)
-    if (w.name == name) {
-      changeAhead();
-      w.active = false;
-      return;
-    }
-  throw InputError(fmt::format("there is no wall '{}' to remove", name));
-}
-
-void DemSolver::setWallPace(const std::string& name, double pace) {
-  for (SolverWall& w : walls_)
-    if (w.name == name && w.motion) {
-      refuseFastWalls(pace * w.motion->topSpeed(wallRadius_));
-      changeAhead(); // grains near it are listed for its new speed
-      w.motion->setPace(w.marks, pace, time());
-      placeWalls(walls_, time(), 0.0);
-      return;
-    }
-  throw InputError(fmt::format("there is no wall '{}' with a motion whose pace could change", name));
-}
-
-void DemSolver::setGravity(const Vec3& gravity) {
-  prepare();
-  // Velocities are half a step behind: those of the full step stay when the kick that leads there is changed.
-  const Vec3 kick = halfStep() * (gravity_ - gravity);
-  for (std::size_t i = 0; i < grains_.size(); ++i) {
-    Quad& v = grains_.motion[i];
-    v = {v.x + kick.x(), v.y + kick.y(), v.z + kick.z(), v.w};
-  }
-  gravity_ = gravity;
-  frozen_.hold(grains_);
-  atFullStep_.valid = false;
-}
-
-void DemSolver::setField(const std::string& name, double factor) {
-  prepare();
-  // As for gravity: velocities of the full step stay when the half kick that leads there becomes another one.
-  std::vector<Quad> before, torqueBefore, after, torqueAfter;
-  evaluate(before, torqueBefore);
-  fields_.setFactor(name, factor);
-  evaluate(after, torqueAfter);
-  for (std::size_t i = 0; i < grains_.size(); ++i) {
-    Quad& v = grains_.motion[i];
-    const Vec3 kick = halfStep() * v.w * (before[i].vec() - after[i].vec());
-    v = {v.x + kick.x(), v.y + kick.y(), v.z + kick.z(), v.w};
-    if (!grains_.turning) continue;
-    Quad& u = grains_.roll[i];
-    const Vec3 turn =
-        halfStep() * grains_.place[i].w / grains_.inertia(i) * (torqueBefore[i].vec() - torqueAfter[i].vec());
-    u = {u.x + turn.x(), u.y + turn.y(), u.z + turn.z(), u.w};
-  }
-  frozen_.hold(grains_);
-  atFullStep_.valid = false;
-}
-
-void DemSolver::beginStage(const std::string& name) {
-  markStage(walls_, name, time());
-  placeWalls(walls_, time(), 0.0);
-  if (!stale_) atFullStep_.valid = false;
 }
 
 void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
@@ -350,99 +278,6 @@ void DemSolver::stepOnce() {
   if (late) checkEscapes();
   const bool fresh = step_ % stepsBetweenOutletChecks == 0 && discharge();
   if (late && !fresh) rebuild();
-}
-
-void DemSolver::applyEvents(std::vector<PairEvent>& events) {
-  std::sort(events.begin(), events.end(), [](const PairEvent& s, const PairEvent& t) {
-    return std::tie(s.idA, s.idB, s.imageKey, s.law) < std::tie(t.idA, t.idB, t.imageKey, t.law);
-  });
-  for (const PairEvent& e : events) {
-    const auto& entry = laws_.entries()[e.law];
-    const auto [i, j] = list_.pairs()[e.pair];
-    EventGrains grains;
-    for (int q : entry.quantities) {
-      grains.a.push_back(&grains_.quantities[q][i]);
-      grains.b.push_back(&grains_.quantities[q][j]);
-    }
-    double history[ContactBlock::maxHistory];
-    const int size = entry.law->historySize();
-    for (int k = 0; k < size; ++k)
-      history[k] = list_.historyOf(e.pair, entry.firstHistory + k);
-    entry.law->onEvent(e.event, history, grains);
-    for (int k = 0; k < size; ++k)
-      list_.setHistory(e.pair, entry.firstHistory + k, history[k]);
-  }
-  for (const PairEvent& e : events)
-    for (int k = 0; e.torn && k < list_.historySize(); ++k)
-      list_.setHistory(e.pair, k, 0.0);
-}
-
-bool DemSolver::discharge() {
-  if (scene_.outlets.empty()) return false;
-  std::vector<std::uint8_t> drop;
-  for (const OutletSpec& outlet : scene_.outlets) {
-    const Vec3 n = outlet.normal.normalized();
-    for (std::size_t i = 0; i < grains_.size(); ++i) {
-      if ((grains_.place[i].vec() - outlet.point).dot(n) <= 0.0) continue;
-      if (drop.empty()) drop.assign(grains_.size(), 0);
-      drop[i] = 1;
-    }
-  }
-  if (drop.empty()) return false;
-  if (laws_.hasEvents()) { // conserved quantities of live pairs go back to their owners first
-    std::vector<PairEvent> events;
-    for (std::int64_t p = 0; p < list_.entries(); ++p) {
-      const auto [i, j] = list_.pairs()[p];
-      if (list_.isPadding(p) || !list_.live()[p] || !(drop[i] || drop[j])) continue;
-      for (std::size_t l = 0; l < laws_.entries().size(); ++l)
-        if (laws_.entries()[l].role == LawRole::gap)
-          events.push_back({grains_.id[i], grains_.id[j], list_.imageKey(p, grains_), p,
-                            static_cast<std::int16_t>(l), deathEvent, true});
-    }
-    applyEvents(events);
-  }
-  for (std::int32_t i : idOrder()) {
-    if (!drop[i]) continue;
-    ++flow_.grainsDischarged;
-    flow_.massDischarged += massOf(i);
-    const Vec3 x = grains_.place[i].vec();
-    const auto through = std::find_if(scene_.outlets.begin(), scene_.outlets.end(), [&](const OutletSpec& o) {
-      return (x - o.point).dot(o.normal.normalized()) > 0.0; // the first that it is beyond
-    });
-    if (!through->recycle && !through->record) continue;
-    GrainSeed seed = seedOf(i);
-    for (const auto& values : grains_.quantities)
-      seed.quantities.push_back(values[i]);
-    left_.push_back({std::move(seed), static_cast<int>(through - scene_.outlets.begin()), time(),
-                     time() - lives_.enteredAt(grains_.id[i])});
-  }
-  flow_.lastDischarge = time();
-  rebuild(drop);
-  return true;
-}
-
-std::vector<double> DemSolver::quantity(const std::string& name) const {
-  const auto& names = grains_.quantityNames;
-  const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end())
-    throw InputError(fmt::format("no law of this scene keeps a grain quantity '{}'", name));
-  std::vector<double> values;
-  for (std::int32_t i : idOrder())
-    values.push_back(grains_.quantities[at - names.begin()][i]);
-  return values;
-}
-
-void DemSolver::setQuantity(const std::string& name, const std::vector<double>& values) {
-  const auto& names = grains_.quantityNames;
-  const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end())
-    throw InputError(fmt::format("no law of this scene keeps a grain quantity '{}'", name));
-  if (values.size() != grains_.size())
-    throw InputError(
-        fmt::format("{} values of '{}' were given for {} grains", values.size(), name, grains_.size()));
-  const auto order = idOrder();
-  for (std::size_t k = 0; k < order.size(); ++k)
-    grains_.quantities[at - names.begin()][order[k]] = values[k];
 }
 
 std::vector<std::int32_t> DemSolver::idOrder() const {
