@@ -84,6 +84,6 @@ TEST_CASE("Wrong input of run and convert", "[app]") {
   refused("convert " + run + " " + (folder / "a.doc").string(), "names no form that is written");
   refused("convert " + run + " " + (folder / "a.vtp").string() + " --frame 99", "has the frames 0 to 1");
   refused("convert " + run + " " + (folder / "a.pvd").string() + " --frame 1",
-          "only .vtp and .csv hold a single frame");
+          "a single frame goes into .vtp, .csv, .dump or .xyz");
   refused("convert " + (folder / "absent").string() + " a.vtp", "there is no such file or folder");
 }
