@@ -64,11 +64,11 @@ public:
   int outputQuads() const { return readsSpin_ ? 3 : turning_ ? 2 : 1; }
   int outputStride() const { return (mixed_ ? 2 : 4) * outputQuads(); } ///< doubles a pair, ParticleView
 
-  /// Which laws can be mixed precision, as a sentence.
+  /// What can be had in mixed precision, as a sentence that the laws of the scene may follow.
   static constexpr const char* mixedRule =
       "precision = \"mixed\" works for grains of one material under a linear normal law, or grains of one "
       "size under a hertz law with a given restitution, alone or with a tangential spring, and no other "
-      "laws between grains; use precision = \"double\"";
+      "laws between grains; use precision = \"double\" here";
 
 private:
   void appendRole(LawRole role, const std::vector<const ContactSpec*>& specs);

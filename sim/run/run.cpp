@@ -72,10 +72,14 @@ struct Run::Impl {
     solver = make(scene, SolverOptions{options.threads});
     recorder = std::make_unique<RunRecorder>(scene, options, solver->stepSize(), log);
     stages = std::make_unique<StageControl>(scene, *solver, recorder->log());
-    provenance = {
-        {"scene", sceneHash(scene)},          {"version", programVersion()},
-        {"seed", std::to_string(scene.seed)}, {"solver", scene.solver},
-        {"accuracy", scene.accuracy.level},   {"step_size", fmt::format("{} s", solver->stepSize())}};
+    provenance = {{"scene", sceneHash(scene)},
+                  {"version", programVersion()},
+                  {"seed", std::to_string(scene.seed)},
+                  {"solver", scene.solver},
+                  {"accuracy", scene.accuracy.level},
+                  {"precision", scene.accuracy.mixedPrecision ? "mixed" : "double"},
+                  {"arithmetic", scene.accuracy.fastArithmetic ? "fast" : "portable"},
+                  {"step_size", fmt::format("{} s", solver->stepSize())}};
     if (!scene.title.empty()) provenance["title"] = scene.title;
     if (const auto state = recorder->restore()) {
       Solver::State solverState;

@@ -17,14 +17,23 @@ void checkMixedPrecision(const Scene& scene, const LawStack& laws) {
     const SizeRange range = sizeRange(scene, s);
     smallest = std::min(smallest, range.smallest);
     largest = std::max(largest, range.largest);
-    if (s.material != scene.species.front().material) throw InputError(LawStack::mixedRule);
+    if (s.material != scene.species.front().material)
+      throw InputError(fmt::format("{} (grains of '{}' and of '{}')", LawStack::mixedRule,
+                                   scene.species.front().material, s.material));
   }
   int material = 0;
   while (scene.materials[material].name != scene.species.front().material)
     ++material;
   const FusedLaws fused = laws.fused(material);
-  if (!mixedLoopPlain(fused) || (fused.normal == FusedLaws::Normal::hertz && smallest != largest))
-    throw InputError(LawStack::mixedRule);
+  if (!mixedLoopPlain(fused)) {
+    std::string names;
+    for (const LawStack::Entry& entry : laws.entries())
+      names += (names.empty() ? "" : ", ") + entry.name;
+    throw InputError(fmt::format("{} (the laws are {})", LawStack::mixedRule, names));
+  }
+  if (fused.normal == FusedLaws::Normal::hertz && smallest != largest)
+    throw InputError(
+        fmt::format("{} (diameters from {:.3g} m to {:.3g} m)", LawStack::mixedRule, smallest, largest));
   // Squares of forces and of histories must be numbers of single precision, 1e-38 to 1e38.
   if (smallest < 1e-6 || largest > 1e3)
     throw InputError(

@@ -150,7 +150,7 @@ TEST_CASE("mixed precision refuses what it cannot do") {
   };
   SceneText rolling = text(true);
   rolling.rolling = R"({ law = "elastic_plastic", coefficient = 0.1 })";
-  refused(rolling, "precision = \"mixed\" works for grains of one material");
+  refused(rolling, "(the laws are linear, spring, elastic_plastic)");
   SceneText skin = text(true);
   skin.accuracy += "skin = 0.5\n";
   refused(skin, "needs a skin of at most 0.45, not 0.5");
@@ -168,5 +168,5 @@ TEST_CASE("mixed precision refuses what it cannot do") {
   spread.species +=
       "[[species]]\nname = \"pea\"\nmaterial = \"glass\"\nsize = { distribution = \"single\", diameter = "
       "\"3 mm\" }\n";
-  refused(spread, "grains of one size under a hertz law");
+  refused(spread, "(diameters from 0.002 m to 0.003 m)");
 }
