@@ -22,6 +22,7 @@ struct ExactAvx2 {
   SANDGLASS_LOOP static V fnma(V a, V b, V c) { return _mm256_fnmadd_pd(a, b, c); }
   SANDGLASS_LOOP static V above(V a, V b) { return _mm256_cmp_pd(a, b, _CMP_GT_OQ); }
   SANDGLASS_LOOP static V both(V a, V b) { return _mm256_and_pd(a, b); }
+  SANDGLASS_LOOP static bool any(V a) { return _mm256_movemask_pd(a) != 0; }
   SANDGLASS_LOOP static V pick(V mask, V a, V b) { return _mm256_blendv_pd(b, a, mask); }
   SANDGLASS_LOOP static V larger(V a, V b) { return _mm256_max_pd(b, a); }
 };
@@ -40,6 +41,7 @@ struct SingleAvx2 {
   SANDGLASS_LOOP static V fnma(V a, V b, V c) { return _mm256_fnmadd_ps(a, b, c); }
   SANDGLASS_LOOP static V above(V a, V b) { return _mm256_cmp_ps(a, b, _CMP_GT_OQ); }
   SANDGLASS_LOOP static V both(V a, V b) { return _mm256_and_ps(a, b); }
+  SANDGLASS_LOOP static bool any(V a) { return _mm256_movemask_ps(a) != 0; }
   SANDGLASS_LOOP static V pick(V mask, V a, V b) { return _mm256_blendv_ps(b, a, mask); }
   SANDGLASS_LOOP static V larger(V a, V b) { return _mm256_max_ps(b, a); }
 };

@@ -24,6 +24,7 @@ struct ExactAvx512 {
   SANDGLASS_LOOP static V fnma(V a, V b, V c) { return _mm512_fnmadd_pd(a, b, c); }
   SANDGLASS_LOOP static __mmask8 above(V a, V b) { return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ); }
   SANDGLASS_LOOP static __mmask8 both(__mmask8 a, __mmask8 b) { return a & b; }
+  SANDGLASS_LOOP static bool any(__mmask8 a) { return a != 0; }
   SANDGLASS_LOOP static V pick(__mmask8 mask, V a, V b) { return _mm512_mask_blend_pd(mask, b, a); }
   SANDGLASS_LOOP static V larger(V a, V b) { return _mm512_max_pd(b, a); }
 };
@@ -69,6 +70,7 @@ struct SingleAvx512 {
   SANDGLASS_LOOP static V fnma(V a, V b, V c) { return _mm512_fnmadd_ps(a, b, c); }
   SANDGLASS_LOOP static __mmask16 above(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
   SANDGLASS_LOOP static __mmask16 both(__mmask16 a, __mmask16 b) { return a & b; }
+  SANDGLASS_LOOP static bool any(__mmask16 a) { return a != 0; }
   SANDGLASS_LOOP static V pick(__mmask16 mask, V a, V b) { return _mm512_mask_blend_ps(mask, b, a); }
   SANDGLASS_LOOP static V larger(V a, V b) { return _mm512_max_ps(b, a); }
 };

@@ -11,15 +11,7 @@ struct Width256 {
   using Arithmetic = ExactAvx2;
   using Real = double;
   static constexpr int lanes = 4, quad = 4;
-  struct Reach {
-    V radii;
-    SANDGLASS_LOOP V overlap(V distance) const { return radii - distance; }
-    /// Whoever is nearer than this may touch once the root is rounded.
-    SANDGLASS_LOOP bool mayTouch(V squared) const {
-      return _mm256_movemask_pd(
-                 Arithmetic::above(radii * radii * Arithmetic::all<V>(1.0 + 1e-12), squared)) != 0;
-    }
-  };
+  using Reach = SumOfRadii<Arithmetic, V>;
   template <bool turning>
   SANDGLASS_LOOP static Vector3<V> places(const ParticleView& v, std::int64_t p, Reach& reach) {
     const Columns at = placesOfFour<turning>(v, p);

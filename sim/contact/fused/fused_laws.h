@@ -17,7 +17,7 @@ namespace sandglass {
 struct FusedLaws {
   enum class Normal { other, linear, linearOfMass, hertz };
   enum class Tangential { other, none, spring };
-  int type = 0; ///< pair of materials, row of the laws' tables
+  int type = 0;                  ///< pair of materials, row of the laws' tables
   Normal normal = Normal::other; ///< hertz: with the dashpot of a given restitution
   Tangential tangential = Tangential::other;
   Dashpot dashpot = Dashpot::none;

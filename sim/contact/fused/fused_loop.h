@@ -24,6 +24,16 @@ SANDGLASS_LOOP double* springOf(const ParticleView& v, std::int64_t p) {
   return v.history + p / ParticleView::lane * 3 * ParticleView::lane + p % ParticleView::lane;
 }
 
+/// Reach of pairs in double precision.
+template <class A, class V> struct SumOfRadii {
+  V radii;
+  SANDGLASS_LOOP V overlap(V distance) const { return radii - distance; }
+  /// Whoever is nearer than this may touch once the root is rounded.
+  SANDGLASS_LOOP bool mayTouch(V squared) const {
+    return A::any(A::above(radii * radii * A::template all<V>(1.0 + 1e-12), squared));
+  }
+};
+
 /// Pairs none of which touches: no force, no history.
 template <class W, bool turning>
 void rest(const ParticleView& v, std::int64_t p, bool keepHistory, double* out) {

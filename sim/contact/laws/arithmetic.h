@@ -6,6 +6,7 @@
 //   fma(a, b, c), fnma        a b + c, c - a b, rounded once
 //   above(a, b)                a > b, as a mask
 //   both(mask, mask)           where both hold
+//   any(mask)                  whether it holds anywhere
 //   pick(mask, a, b)           mask ? a : b
 //   all<V>(number)            the number in every place
 //   larger(a, b)               a < b ? b : a, as std::max has it, NaN included
@@ -34,6 +35,7 @@ struct ScalarArithmetic {
   template <class V> SANDGLASS_LOOP static V fnma(V a, V b, V c) { return fma(-a, b, c); }
   template <class V> SANDGLASS_LOOP static bool above(V a, V b) { return a > b; }
   SANDGLASS_LOOP static bool both(bool a, bool b) { return a && b; }
+  SANDGLASS_LOOP static bool any(bool a) { return a; }
   template <class V> SANDGLASS_LOOP static V pick(bool mask, V a, V b) { return mask ? a : b; }
   template <class V> SANDGLASS_LOOP static V larger(V a, V b) { return a < b ? b : a; }
 };

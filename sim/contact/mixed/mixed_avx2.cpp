@@ -3,6 +3,7 @@
 #include "sim/contact/arithmetic_avx2.h"
 #include "sim/contact/fused/fused_loop.h"
 #include "sim/contact/mixed/mixed_narrow.h"
+#include "sim/contact/mixed/mixed_reach.h"
 
 namespace sandglass {
 
@@ -32,13 +33,7 @@ struct Width256 {
   using Real = float;
   using Arithmetic = SingleAvx2;
   static constexpr int lanes = 8, quad = 2;
-  struct Reach {
-    V radii, squares; ///< as in mixed_plain.cpp
-    SANDGLASS_LOOP V overlap(V distance) const { return squares / (radii + distance); }
-    SANDGLASS_LOOP bool mayTouch(V) const {
-      return _mm256_movemask_ps(Arithmetic::above(squares, _mm256_setzero_ps())) != 0;
-    }
-  };
+  using Reach = MixedReach<Arithmetic, V>;
 
   /// A quad of eight pairs: z times `sign` added to a.
   template <bool turning>

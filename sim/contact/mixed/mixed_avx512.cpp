@@ -3,6 +3,7 @@
 #include "sim/contact/arithmetic_avx512.h"
 #include "sim/contact/fused/fused_loop.h"
 #include "sim/contact/mixed/mixed_narrow.h"
+#include "sim/contact/mixed/mixed_reach.h"
 
 namespace sandglass {
 
@@ -43,11 +44,7 @@ template <class A> struct Width512 {
   using Real = float;
   using Arithmetic = A;
   static constexpr int lanes = 16, quad = 2;
-  struct Reach {
-    V radii, squares; ///< as in mixed_plain.cpp
-    SANDGLASS_LOOP V overlap(V distance) const { return A::over(squares, radii + distance); }
-    SANDGLASS_LOOP bool mayTouch(V) const { return A::above(squares, _mm512_setzero_ps()) != 0; }
-  };
+  using Reach = MixedReach<Arithmetic, V>;
 
   template <bool turning>
   SANDGLASS_LOOP static Vector3<V> places(const ParticleView& v, std::int64_t p, Reach& reach) {
@@ -199,7 +196,8 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
 } // namespace
 
 FusedLoop mixedLoopAvx512(const FusedLaws& laws, bool fast) {
-  return fast ? pickGeneralLoop<Width512<FastSingleAvx512>>(laws) : pickGeneralLoop<Width512<SingleAvx512>>(laws);
+  return fast ? pickGeneralLoop<Width512<FastSingleAvx512>>(laws)
+              : pickGeneralLoop<Width512<SingleAvx512>>(laws);
 }
 
 Kernel mixedKernelAvx512() {

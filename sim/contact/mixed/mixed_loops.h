@@ -8,10 +8,11 @@
 
 namespace sandglass {
 
+/// 1.5 * 2^52: the last bits of a sum with it are those of the nearest integer.
+constexpr double fixedPointBias = 6755399441055744.0;
 /// A number of units as a wrapped 32-bit integer, to the nearest; up to 2^51 of them.
 inline std::int32_t fixedPoint(double units) {
-  constexpr double bias = 6755399441055744.0; // 1.5 * 2^52: the sum's last bits are those of the integer
-  return static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(units + bias));
+  return static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(units + fixedPointBias));
 }
 /// What single precision takes for the 1/mass of grains that nothing moves, so that quotients stay finite.
 constexpr float leastInverseMass = 1e-30F;

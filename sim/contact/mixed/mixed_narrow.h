@@ -10,7 +10,7 @@ namespace sandglass {
 namespace {
 
 void narrow(const ParticleView& v, std::int64_t first, int count) {
-  const __m256d perUnit = _mm256_set1_pd(v.perUnit), bias = _mm256_set1_pd(6755399441055744.0); // fixedPoint
+  const __m256d perUnit = _mm256_set1_pd(v.perUnit), bias = _mm256_set1_pd(fixedPointBias);
   const __m256i lower = _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6);
   const __m128 least = _mm_set1_ps(leastInverseMass);
   const double* from = v.records + first * 4 * v.quads;

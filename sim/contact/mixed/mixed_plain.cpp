@@ -2,6 +2,7 @@
 
 #include "sim/contact/fused/fused_loop.h"
 #include "sim/contact/mixed/mixed_loops.h"
+#include "sim/contact/mixed/mixed_reach.h"
 
 #include <algorithm>
 
@@ -14,11 +15,7 @@ struct Width1 {
   using Real = float;
   using Arithmetic = ScalarArithmetic;
   static constexpr int lanes = 1, quad = 2;
-  struct Reach {
-    V radii, squares; ///< [units]; squared radii minus squared distance, times a unit [units m]
-    V overlap(V distance) const { return squares / (radii + distance); }
-    bool mayTouch(V) const { return squares > 0.0F; }
-  };
+  using Reach = MixedReach<Arithmetic, V>;
   static const std::int32_t* record(const ParticleView& v, std::int64_t p, int side) {
     return v.mixed + v.pairs[2 * p + side] * std::int64_t{4} * v.quads;
   }
