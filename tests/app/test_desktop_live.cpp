@@ -66,6 +66,69 @@ TEST_CASE("Gravity set by the button while it runs is in the scene, which gives 
   }
 }
 
+TEST_CASE("The strength of a wind set by keys and mouse is in the scene, which gives the same bits again",
+          "[desktop]") {
+  TemporaryFolder folder("desktop-wind");
+  const auto scene = writeBed(folder / "bed.toml", 8, 8, 0.1);
+  std::ofstream(scene, std::ios::app) << R"fields(
+[[field]]
+name = "breeze"
+kind = "wind"
+velocity = ["2 m/s", "0 m/s", "0 m/s"]
+[[field]]
+name = "drag"
+kind = "drag"
+law = "linear"
+linear_coefficient = "1e-4 kg/(m*s)"
+)fields";
+  std::int64_t changed = 0;
+  {
+    Desktop desktop(folder / "live");
+    REQUIRE(desktop.open(scene));
+    auto* apply = desktop.child<QPushButton>("applyField");
+    REQUIRE_FALSE(apply->isEnabled()); // nothing runs
+    desktop.key(Qt::Key_2, Qt::ControlModifier);
+    desktop.key(Qt::Key_F5);
+    REQUIRE(
+        waitFor([&] { return desktop.session().liveFrame() && desktop.session().liveFrame()->time > 0.01; }));
+    desktop.choose("fieldToChange", "breeze");
+    desktop.type("fieldFactor", "-3");
+    desktop.click("applyField");
+    REQUIRE(waitFor([&] { return desktop.session().progress() && !desktop.session().runs(); }));
+    const auto& events = desktop.session().current().scene->events;
+    REQUIRE(events.size() == 1);
+    REQUIRE(events[0].fields.size() == 1);
+    CHECK(events[0].fields[0].field == "breeze");
+    CHECK(events[0].fields[0].factor == -3);
+    changed = events[0].step;
+    CHECK(desktop.child<QLabel>("events")->text().contains("field breeze at -3 times its strength"));
+    CHECK(desktop.child<QPlainTextEdit>("sceneText")->toPlainText().contains("breeze"));
+    CHECK(desktop.window->bannerText().toStdString() == "");
+  }
+  RunOptions options;
+  options.folder = folder / "again";
+  options.threads = 2;
+  Run(readScene((folder / "live" / "scene.toml").string()), options).execute();
+  options.folder = folder / "calm";
+  Run(readScene(scene.string()), options).execute();
+  const auto live = openFrames(folder / "live"), again = openFrames(folder / "again"),
+             calm = openFrames(folder / "calm");
+  REQUIRE(live->size() == again->size());
+  REQUIRE(live->size() == calm->size());
+  double reverse = 0;
+  for (std::size_t k = 0; k < live->size(); ++k) {
+    Frame a = *live->load(k), b = *again->load(k);
+    a.provenance.erase("scene"); // changed with the first event
+    b.provenance.erase("scene");
+    requireEqual(a, b);
+    const FramePtr unchanged = calm->load(k);
+    if (a.step <= changed) CHECK(sameBits(a.position, unchanged->position));
+    for (std::size_t i = 0; i < a.size(); ++i)
+      reverse += unchanged->position[i].x() - a.position[i].x();
+  }
+  CHECK(reverse > 0); // blown the other way
+}
+
 TEST_CASE("A branch goes on from the frame shown, in a tab of its own, paused there", "[desktop]") {
   TemporaryFolder folder("desktop-branch");
   {
