@@ -15,6 +15,7 @@ void addRun(CLI::App& app, Action& action);
 void addConvert(CLI::App& app, Action& action);
 void addExplain(CLI::App& app, Action& action);
 void addAnalyze(CLI::App& app, Action& action);
+void addInfo(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addSweep(CLI::App& app, Action& action);
 

@@ -63,43 +63,22 @@ void setBox(const std::string& text, ImportSettings& settings) {
 } // namespace
 
 void addImportOptions(CLI::App& command, ImportArguments& a) {
-  const std::string group = "Files of other programs";
-  command
-      .add_option("--columns", a.columns,
-                  "what columns, units, box, radii, times and walls are (default: FILE.import.toml or "
-                  "import.toml beside the frames)")
-      ->type_name("TOML")
-      ->group(group);
-  command.add_option("--save-columns", a.saveColumns, "write the settings in use to a file, for --columns")
-      ->type_name("TOML")
-      ->group(group);
-  command.add_option("--radius", a.radius, "of all grains, where the file has none: \"1.5 mm\"")
-      ->type_name("LENGTH")
-      ->group(group);
-  command.add_option("--time-step", a.timeStep, "time of one step, where the file counts steps: \"1e-5 s\"")
-      ->type_name("TIME")
-      ->group(group);
-  command
-      .add_option("--frame-interval", a.frameInterval, "time from frame to frame, where the file says none")
-      ->type_name("TIME")
-      ->group(group);
-  command.add_option("--units", a.units, "the file's units of length, time and mass (default: m,s,kg)")
-      ->type_name("mm,ms,g")
-      ->group(group);
-  command.add_option("--box", a.box, "the box of the grains, in metres or with units")
-      ->type_name("X:X,Y:Y,Z:Z")
-      ->group(group);
-  command.add_option("--periodic", a.periodic, "directions in which the box repeats: xy, or none")
-      ->type_name("AXES")
-      ->group(group);
-  command
-      .add_option(
-          "--walls", a.walls,
-          "walls beside the grains: a scene (its gravity and outlets hold as well), STL or VTP; may be "
-          "repeated")
-      ->type_name("FILE")
-      ->allow_extra_args(false)
-      ->group(group);
+  const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
+    return command.add_option(name, value, help)->type_name(type)->group("Files of other programs");
+  };
+  add("--columns", a.columns, "TOML",
+      "what columns, units, box, radii, times and walls are (default: FILE.import.toml or import.toml beside "
+      "the frames)");
+  add("--save-columns", a.saveColumns, "TOML", "write the settings in use to a file, for --columns");
+  add("--radius", a.radius, "LENGTH", "of all grains, where the file has none: \"1.5 mm\"");
+  add("--time-step", a.timeStep, "TIME", "time of one step, where the file counts steps: \"1e-5 s\"");
+  add("--frame-interval", a.frameInterval, "TIME", "time from frame to frame, where the file says none");
+  add("--units", a.units, "mm,ms,g", "the file's units of length, time and mass (default: m,s,kg)");
+  add("--box", a.box, "X:X,Y:Y,Z:Z", "the box of the grains, in metres or with units");
+  add("--periodic", a.periodic, "AXES", "directions in which the box repeats: xy, or none");
+  add("--walls", a.walls, "FILE",
+      "walls beside the grains: a scene (its gravity and outlets hold as well), STL or VTP; may be repeated")
+      ->allow_extra_args(false);
 }
 
 ImportSettings importSettingsOf(const ImportArguments& a, const std::string& path) {

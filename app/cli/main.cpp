@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   cli::addConvert(app, action);
   cli::addExplain(app, action);
   cli::addAnalyze(app, action);
+  cli::addInfo(app, action);
   cli::addCompare(app, action);
   cli::addSweep(app, action);
 #ifdef SANDGLASS_VIS

@@ -73,9 +73,18 @@ std::vector<BadFile> badFiles() {
        "id "
        "vx vy\n1 0 0\n",
        1},
-      {"a tilted box", "a.dump",
+      {"a tilted box: read", "a.dump",
        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 9 1\n0 9 0\n0 9 "
        "0\nITEM: ATOMS id x y z\n1 0 0 0\n",
+       1},
+      {"a tilted box with open sides", "a.dump",
+       "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp ff pp\n0 9 1\n0 9 0\n0 9 "
+       "0\nITEM: ATOMS id x y z\n1 0 0 0\n",
+       1},
+      {"a box of three general vectors", "a.dump",
+       "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS abc origin pp pp pp\n9 0 0 0\n0 9 0 "
+       "0\n0 "
+       "0 9 0\nITEM: ATOMS id x y z\n1 0 0 0\n",
        0},
       {"a box upside down", "a.dump",
        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n9 0\n0 9\n0 9\nITEM: ATOMS "

@@ -1,6 +1,7 @@
 // Frames of other programs: what each format means, settings, sequences, packed files.
 
 #include "sim/base/error.h"
+#include "sim/io/import/foreign_facts.h"
 #include "sim/io/import/import_settings.h"
 #include "sim/io/import/reader_table.h"
 #include "sim/io/run_folder.h"
@@ -104,6 +105,72 @@ TEST_CASE("Snapshots without names of columns: id type diameter x y z, and the o
   const auto scaled = opened(head + "1 1 0.5 0.5 0.5\n2 1 0 0 1\n");
   CHECK(scaled->load(0)->position[0] == Vec3(0, 0, 50));
   CHECK(mentions(*scaled, "id type xs ys zs"));
+}
+
+TEST_CASE("Tilted boxes: grains move by whole edges into the upright box of the same volume", "[import]") {
+  // Edges (10, 0, 0), (xy, 8, 0), (xz, yz, 6) from the origin (1, 2, 3); LAMMPS' bounds are those of the
+  // corners.
+  const auto dumped = [](double xy, double xz, double yz, const std::string& atoms) {
+    const auto bounds = [](double low, double high, double tilt) {
+      return std::to_string(low) + " " + std::to_string(high) + " " + std::to_string(tilt) + "\n";
+    };
+    return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n" +
+           bounds(1 + std::min({0., xy, xz, xy + xz}), 11 + std::max({0., xy, xz, xy + xz}), xy) +
+           bounds(2 + std::min(0., yz), 10 + std::max(0., yz), xz) + bounds(3, 9, yz) + "ITEM: ATOMS " +
+           atoms;
+  };
+  SECTION("scaled positions are shares of the edges") {
+    // (1, 2, 3) + 0.5 a + 0.25 b + 0.75 c
+    const auto source = opened(dumped(3, -2, 1, "id xs ys zs\n1 0.5 0.25 0.75\n"));
+    const FramePtr frame = source->load(0);
+    CHECK(frame->position[0].isApprox(Vec3(1 + 5 + 0.75 - 1.5, 2 + 2 + 0.75, 3 + 4.5), 1e-12));
+    CHECK(frame->domain.periodic == std::array<bool, 3>{true, false, false});
+    CHECK(frame->domain.lower.isApprox(Vec3(1, 2, 3)));
+    CHECK(frame->domain.upper.isApprox(Vec3(11, 10, 9)));
+    CHECK(mentions(*source, "does not repeat along y and z"));
+  }
+  SECTION("a grain above the box comes back by whole edges") {
+    // Two c above and one b beyond (2, 3, 4).
+    const auto source = opened(dumped(3, -2, 1, "id x y z\n1 1 13 16\n"));
+    CHECK(source->load(0)->position[0].isApprox(Vec3(2, 3, 4), 1e-12));
+  }
+  SECTION("tilts of whole edges lose nothing") {
+    // b is that of the upright box and a, c that of the upright box, b and a.
+    const auto source = opened(dumped(10, 20, 8, "id x y z\n1 12 4 5\n"));
+    const FramePtr frame = source->load(0);
+    CHECK(frame->domain.periodic == std::array<bool, 3>{true, true, true});
+    CHECK(frame->position[0].isApprox(Vec3(2, 4, 5), 1e-12));
+    source->load(0);
+    CHECK_FALSE(mentions(*source, "tilted"));
+  }
+  SECTION("along z alone") {
+    const auto source = opened(dumped(0, 5, 0, "id x y z\n1 2 9 10\n"));
+    const FramePtr frame = source->load(0);
+    CHECK(frame->domain.periodic == std::array<bool, 3>{true, true, false});
+    CHECK(frame->position[0].isApprox(Vec3(7, 9, 4), 1e-12));
+  }
+}
+
+TEST_CASE("What each column of a file is understood as", "[import]") {
+  const TemporaryFolder folder("foreign_facts");
+  const auto file = folder / "frames.dump";
+  std::ofstream(file) << dump;
+  const ForeignFacts facts = foreignFacts(file);
+  CHECK(facts.grains == 2);
+  CHECK(facts.step == 100);
+  std::vector<std::string> quantities;
+  for (const auto& column : facts.columns)
+    quantities.push_back(column.quantity);
+  CHECK(quantities == std::vector<std::string>{"id", "species", "x", "y", "z", "velocity.x", "velocity.y",
+                                               "velocity.z", "radius", ""});
+  CHECK(facts.columns[2].smallest == 1);
+  CHECK(facts.columns[2].largest == 11);
+  ImportSettings settings;
+  settings.columns["temperature"] = "vx";
+  settings.columns["radius"] = "";
+  const ForeignFacts mapped = foreignFacts(file, &settings);
+  CHECK(mapped.columns[5].quantity == "temperature");
+  CHECK(mapped.columns[8].quantity.empty());
 }
 
 TEST_CASE("XYZ and extended XYZ", "[import]") {

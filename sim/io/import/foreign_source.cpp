@@ -64,7 +64,7 @@ public:
       raw.box->upper /= settings_.length;
     }
     auto frame = std::make_shared<Frame>(
-        buildFrame(std::move(raw), place_.firstFrame + index, settings_, file_->name(), remarks_));
+        buildFrame(raw, place_.firstFrame + index, settings_, file_->name(), remarks_));
     walls_.addTo(*frame);
     frame->provenance = {{"source", file_->name()}, {"format", kind_.name}};
     return frame;

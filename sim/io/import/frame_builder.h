@@ -19,8 +19,8 @@ bool timeIsKnown(const std::optional<double>& time, const std::optional<std::int
 
 /// `file` begins every message. What is taken for granted is added to `remarks` once. Throws InputError:
 /// no positions, a position, radius or other quantity of the mechanics that is no finite number, an id that
-/// occurs twice, a tilted or empty box.
-Frame buildFrame(RawFrame&& raw, std::size_t index, const ImportSettings& settings, const std::string& file,
-                 std::vector<std::string>& remarks);
+/// occurs twice, an empty box, or a tilted one that cannot be put upright.
+Frame buildFrame(const RawFrame& raw, std::size_t index, const ImportSettings& settings,
+                 const std::string& file, std::vector<std::string>& remarks);
 
 } // namespace sandglass

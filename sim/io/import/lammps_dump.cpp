@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace sandglass {
 
@@ -26,6 +27,7 @@ struct Header {
   std::optional<std::int64_t> step;
   std::optional<std::uint64_t> count;
   std::optional<Domain> box;
+  Vec3 tilt = Vec3::Zero(); // xy, xz, yz
   std::string units;
   std::vector<std::string> columns;
   bool found = false; ///< false: the file ended before it
@@ -65,6 +67,7 @@ public:
     frame.time = header.time;
     frame.step = header.step;
     frame.box = header.box;
+    frame.tilt = header.tilt;
     frame.firstLine = in.line() + 1;
     std::string_view line;
     std::vector<std::string> names = header.columns;
@@ -111,7 +114,7 @@ private:
 
   void readItem(LineReader& in, const std::string& item, Header& header) {
     if (item.starts_with("BOX BOUNDS")) {
-      header.box = readBox(in, item);
+      header.box = readBox(in, item, header.tilt);
       return;
     }
     std::string_view line;
@@ -139,13 +142,25 @@ private:
     return value && std::isfinite(*value) ? value : std::optional<double>{};
   }
 
-  static Domain readBox(LineReader& in, const std::string& item) {
+  /// Bounds of a tilted box are those of all its corners: lower.x = xlo + min(0, xy, xz, xy + xz) and so on
+  /// (https://docs.lammps.org/Howto_triclinic.html).
+  static void takeCornersOff(Domain& box, const Vec3& tilt) {
+    const auto [xy, xz, yz] = std::tuple(tilt[0], tilt[1], tilt[2]);
+    box.lower[0] -= std::min({0.0, xy, xz, xy + xz});
+    box.upper[0] -= std::max({0.0, xy, xz, xy + xz});
+    box.lower[1] -= std::min(0.0, yz);
+    box.upper[1] -= std::max(0.0, yz);
+  }
+
+  static Domain readBox(LineReader& in, const std::string& item, Vec3& tilts) {
     Domain box;
     const auto words = cellsOf(std::string_view(item).substr(10));
     const auto has = [&](std::string_view word) {
       return std::find(words.begin(), words.end(), word) != words.end();
     };
-    if (has("abc")) in.fail("the box is given by three general vectors, but only upright boxes can be read");
+    if (has("abc"))
+      in.fail("the box is given by three general vectors; write the dump with 'dump_modify triclinic/general "
+              "no'");
     const bool tilted = has("xy");
     for (std::size_t k = 0, flags = 0; k < words.size(); ++k) {
       if (words[k].size() != 2 || words[k] == "xy" || words[k] == "xz" || words[k] == "yz") continue;
@@ -163,10 +178,14 @@ private:
       if (!low || !high || !tilt || !(*low <= *high))
         in.fail(fmt::format("found {}, but the lower and the upper end of the box along {} are due",
                             shownText(line), "xyz"[k]));
-      if (*tilt != 0) in.fail("the box is tilted, but only upright boxes can be read");
+      tilts[k] = *tilt;
       box.lower[k] = *low;
       box.upper[k] = *high;
     }
+    takeCornersOff(box, tilts);
+    if (!(box.lower.array() <= box.upper.array()).all())
+      in.fail(fmt::format("the tilts {:g} {:g} {:g} are larger than the bounds of the box allow", tilts[0],
+                          tilts[1], tilts[2]));
     return box;
   }
 

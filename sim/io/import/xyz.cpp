@@ -177,8 +177,10 @@ private:
     };
     const auto lattice = numbers("lattice", 9);
     if (lattice.empty()) return;
-    for (std::size_t k = 0; k < 9; ++k)
-      if (k % 4 != 0 && lattice[k] != 0) in.fail("the box is tilted, but only upright boxes can be read");
+    if (lattice[1] != 0 || lattice[2] != 0 || lattice[5] != 0)
+      in.fail("the first edge of the box is not along x, or the second one not in the plane of x and y; turn "
+              "box and grains so that they are, as LAMMPS has them");
+    frame.tilt = {lattice[3], lattice[6], lattice[7]};
     Domain box;
     const auto origin = numbers("origin", 3);
     for (std::size_t k = 0; k < 3; ++k) {
