@@ -4,7 +4,7 @@
 
 namespace sandglass::analysis {
 
-CellGrid::CellGrid(std::span<const Vec3> points, const Domain& domain, double cellSize) {
+CellGrid::CellGrid(std::span<const Vec3> points, const Domain& domain, double cellSize, double fineness) {
   const std::size_t n = points.size();
   Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
   for (const auto& p : points) {
@@ -29,10 +29,12 @@ CellGrid::CellGrid(std::span<const Vec3> points, const Domain& domain, double ce
       g.origin = lower[order_[k]];
       g.length = extent[order_[k]];
       g.periodic = domain.periodic[order_[k]];
+      const double width = k == 2 ? size / fineness : size;
       const double wanted =
-          std::max(1.0, g.periodic ? std::floor(g.length / size) : std::ceil(g.length / size));
+          std::max(1.0, g.periodic ? std::floor(g.length / width) : std::ceil(g.length / width));
       g.count = static_cast<int>(std::min(wanted, 1e6));
-      g.width = g.length > 0 ? g.length / g.count : size;
+      g.width = g.length > 0 ? g.length / g.count : width;
+      g.perWidth = 1 / g.width;
       cells *= wanted;
     }
     if (cells <= most) break;
@@ -54,7 +56,7 @@ CellGrid::CellGrid(std::span<const Vec3> points, const Domain& domain, double ce
   auto next = start_;
   original_.resize(n);
   for (auto& x : x_)
-    x.resize(n);
+    x.resize(n + padding, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t at = next[cell[i]]++;
     original_[at] = static_cast<std::uint32_t>(i);

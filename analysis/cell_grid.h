@@ -17,12 +17,15 @@ class CellGrid {
 public:
   /// `cellSize` is a wish [m]: periodic axes are divided evenly, and there are never many more cells than
   /// points. Points must lie in the domain along periodic axes.
-  CellGrid(std::span<const Vec3> points, const Domain& domain, double cellSize);
+  /// Along the rows cells are `fineness` times shorter, so that runs end closer to the ball that is looked at.
+  CellGrid(std::span<const Vec3> points, const Domain& domain, double cellSize, double fineness = 1);
 
   std::size_t size() const { return original_.size(); }
   /// Index that the sorted point had in the caller's array.
   std::uint32_t original(std::size_t sorted) const { return original_[sorted]; }
-  /// Coordinates along the grid's own three axes (the last is the row axis).
+  /// Coordinates along the grid's own three axes (the last is the row axis). `padding` more numbers, NaN,
+  /// follow the last, so that loops may read whole vectors.
+  static constexpr std::size_t padding = 8;
   const double* coordinates(int axis) const { return x_[axis].data(); }
   /// Coordinate (0 x, 1 y, 2 z) that each axis of the grid is.
   const std::array<int, 3>& axes() const { return order_; }
@@ -67,21 +70,24 @@ public:
 
 private:
   struct Axis {
-    double origin = 0, length = 0, width = 1;
+    double origin = 0, length = 0, width = 1, perWidth = 1;
     int count = 1;
     bool periodic = false;
   };
-  static int floorDiv(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
+  static int floorDiv(int a, int b) {
+    if (static_cast<unsigned>(a) < static_cast<unsigned>(b)) return 0; // mostly; a division is slow
+    return a >= 0 ? a / b : -((b - 1 - a) / b);
+  }
   int cellOf(int axis, double x) const {
     const Axis& g = axes_[axis];
-    return std::clamp(static_cast<int>(std::floor((x - g.origin) / g.width)), 0, g.count - 1);
+    return std::clamp(static_cast<int>(std::floor((x - g.origin) * g.perWidth)), 0, g.count - 1);
   }
   /// Cells, unwrapped, that [x - r, x + r] touches; a hair more, against rounding at cell borders.
   std::pair<int, int> cellRange(int axis, double x, double r) const {
     const Axis& g = axes_[axis];
     const double reach = r + 1e-9 * g.width;
-    int from = static_cast<int>(std::floor((x - reach - g.origin) / g.width));
-    int to = static_cast<int>(std::floor((x + reach - g.origin) / g.width));
+    int from = static_cast<int>(std::floor((x - reach - g.origin) * g.perWidth));
+    int to = static_cast<int>(std::floor((x + reach - g.origin) * g.perWidth));
     if (!g.periodic) {
       from = std::max(from, 0);
       to = std::min(to, g.count - 1);

@@ -10,9 +10,10 @@ namespace sandglass::analysis {
 
 namespace {
 
-/// Cells a quarter of the reach wide: the runs then hold about 1.4 times the points that are really in reach.
+/// Cells two fifths of the reach wide and a fifteenth along the rows: long runs, which hold 1.5 times the points
+/// that are really in reach.
 CellGrid gridFor(std::span<const Vec3> points, const Domain& domain, double reach) {
-  return CellGrid(points, domain, reach / 4);
+  return CellGrid(points, domain, reach / 2.5, 6);
 }
 
 /// Each bin is counted in so many places in turn: a counter that is raised again before its last value has
@@ -30,18 +31,19 @@ public:
   template <class Histogram>
   void operator()(std::size_t begin, std::size_t end, double cx, double cy, double cz,
                   Histogram& histogram) const {
-    constexpr std::size_t chunk = 64;
+    // Whole vectors, whose last may reach beyond the run: runs are short, and a loop for what is left over
+    // would take as long as all the rest.
+    constexpr std::size_t chunk = 64, width = CellGrid::padding;
     int bin[chunk];
+    const int last = static_cast<int>(bins_);
     for (std::size_t from = begin; from < end; from += chunk) {
       const std::size_t count = std::min(chunk, end - from);
-      const double* x = x_ + from;
-      const double* y = y_ + from;
-      const double* z = z_ + from;
-      for (std::size_t j = 0; j < count; ++j) {
-        const double dx = x[j] - cx, dy = y[j] - cy, dz = z[j] - cz;
-        const double q = std::sqrt(dx * dx + dy * dy + dz * dz) * inverseWidth_;
-        bin[j] = static_cast<int>(q < bins_ ? q : bins_);
-      }
+      for (std::size_t at = 0; at < count; at += width)
+        for (std::size_t j = at; j < at + width; ++j) {
+          const double dx = x_[from + j] - cx, dy = y_[from + j] - cy, dz = z_[from + j] - cz;
+          const double q = std::sqrt(dx * dx + dy * dy + dz * dz) * inverseWidth_;
+          bin[j] = std::min(static_cast<int>(q), last); // runs hold no point that is very far
+        }
       for (std::size_t j = 0; j < count; ++j)
         ++histogram[lanes * static_cast<std::size_t>(bin[j]) + j % lanes];
     }

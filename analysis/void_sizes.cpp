@@ -52,33 +52,52 @@ namespace {
 
 /// Largest first, and one of each set that agrees to a ten thousandth of the diameter: cells share their
 /// vertices.
-std::vector<EmptySphere> unique(std::vector<EmptySphere> spheres, double diameter) {
+std::vector<EmptySphere> unique(const std::vector<EmptySphere>& spheres, double diameter) {
   struct Keyed {
     std::array<std::int64_t, 3> key;
     std::size_t index;
   };
-  std::vector<Keyed> keyed;
-  keyed.reserve(spheres.size());
-  for (std::size_t s = 0; s < spheres.size(); ++s) {
-    Keyed k{{}, s};
+  std::vector<Keyed> keyed(spheres.size());
+  tbb::parallel_for(std::size_t{0}, spheres.size(), [&](std::size_t s) {
+    Keyed& k = keyed[s];
+    k.index = s;
     // Shifted, so that the round coordinates of lattices do not lie on the border between two keys.
     for (int a = 0; a < 3; ++a)
       k.key[static_cast<std::size_t>(a)] =
           static_cast<std::int64_t>(std::floor(spheres[s].centre[a] / (1e-4 * diameter) + 0.31415926));
-    keyed.push_back(k);
-  }
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
+  });
+  tbb::parallel_sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
     return a.key != b.key ? a.key < b.key : a.index < b.index;
   });
   std::vector<EmptySphere> kept;
   for (std::size_t k = 0; k < keyed.size(); ++k)
     if (k == 0 || keyed[k].key != keyed[k - 1].key) kept.push_back(spheres[keyed[k].index]);
-  std::sort(kept.begin(), kept.end(), [](const EmptySphere& a, const EmptySphere& b) {
+  tbb::parallel_sort(kept.begin(), kept.end(), [](const EmptySphere& a, const EmptySphere& b) {
     if (a.radius != b.radius) return a.radius > b.radius;
     return std::lexicographical_compare(a.centre.data(), a.centre.data() + 3, b.centre.data(),
                                         b.centre.data() + 3);
   });
   return kept;
+}
+
+/// The spheres that work(i, spheres) adds for i from 0 to n, in the order of i whoever does the work.
+template <class Work> std::vector<EmptySphere> gathered(std::size_t n, Work&& work) {
+  constexpr std::size_t block = 1024;
+  std::vector<std::vector<EmptySphere>> pieces((n + block - 1) / block);
+  tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t b) {
+    for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i)
+      work(i, pieces[b]);
+  });
+  std::size_t size = 0;
+  for (const auto& piece : pieces)
+    size += piece.size();
+  std::vector<EmptySphere> all;
+  all.reserve(size);
+  for (auto& piece : pieces) {
+    all.insert(all.end(), piece.begin(), piece.end());
+    std::vector<EmptySphere>().swap(piece);
+  }
+  return all;
 }
 
 /// Every `stride`-th void point climbed to the top of its void.
@@ -107,12 +126,13 @@ std::vector<EmptySphere> holes(const Frame& frame, const VoronoiCells& cells, co
                                const Region& region, const VoidPoints& points, double diameter) {
   std::vector<EmptySphere> found;
   if (distance.equalGrains()) {
-    for (std::size_t i = 0; i < frame.size(); ++i)
+    const auto vertices = gathered(frame.size(), [&](std::size_t i, std::vector<EmptySphere>& spheres) {
       for (const Vec3& v : cells.vertices(i)) {
         const double radius = (v - frame.position[i]).norm() - distance.largestRadius();
-        if (radius > 0) found.push_back({distance.wrapped(v), radius, false});
+        if (radius > 0) spheres.push_back({distance.wrapped(v), radius, false});
       }
-    found = unique(std::move(found), diameter);
+    });
+    found = unique(vertices, diameter);
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
       EmptySphere& s = found[k];
       const double walls = distance.toWalls(s.centre);
@@ -124,32 +144,29 @@ std::vector<EmptySphere> holes(const Frame& frame, const VoronoiCells& cells, co
     found = climbed(distance, region, points, 5000, diameter);
   }
   std::erase_if(found, [&](const EmptySphere& s) { return !(s.radius > 0) || !region.contains(s.centre); });
-  return unique(std::move(found), diameter);
+  return unique(found, diameter);
 }
 
 std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells& cells,
                                           const SurfaceDistance& distance, const Region& region,
                                           const std::vector<EmptySphere>& holes, const VoidPoints& points,
                                           int level) {
-  std::vector<EmptySphere> spheres = holes;
+  std::vector<EmptySphere> found;
   if (!distance.equalGrains()) {
     // Every void point has its own sphere; those on the way uphill are larger and still contain it.
     const double step = 0.5 * distance.largestRadius() / (level + 1);
-    std::vector<std::vector<EmptySphere>> way(points.point.size());
-    tbb::parallel_for(std::size_t{0}, points.point.size(), [&](std::size_t k) {
+    found = gathered(points.point.size(), [&](std::size_t k, std::vector<EmptySphere>& spheres) {
       Vec3 x = points.point[k];
       for (int n = 0; n < 2 * (level + 1); ++n) {
         x += step * distance.toGrains(x).away;
         if (!region.contains(x)) break;
         if (const double radius = distance(x); radius > 0)
-          way[k].push_back({distance.wrapped(x), radius, false});
+          spheres.push_back({distance.wrapped(x), radius, false});
       }
     });
-    for (const auto& w : way)
-      spheres.insert(spheres.end(), w.begin(), w.end());
   } else {
     // The centre of a largest sphere about a point lies on a Voronoi vertex, edge or face. Each face once.
-    for (std::size_t i = 0; i < frame.size(); ++i) {
+    found = gathered(frame.size(), [&](std::size_t i, std::vector<EmptySphere>& spheres) {
       const auto vertices = cells.vertices(i);
       const Vec3& own = frame.position[i];
       const auto add = [&](const Vec3& c, bool cut) {
@@ -173,9 +190,10 @@ std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells
         }
         if (level > 0) add(middle, cut);
       }
-    }
+    });
   }
-  return spheres;
+  found.insert(found.end(), holes.begin(), holes.end());
+  return found;
 }
 
 std::vector<double> climbedSizes(const SurfaceDistance& distance, const Region& region,

@@ -1,6 +1,6 @@
 // Speed of the analyses on one machine: rows of
 //   case,program,threads,precision,grains,steps,cpu_s,wall_s,grain_steps_per_cpu_s,bytes_per_grain,check
-// A step is a frame. g(r) of uniform points is checked by its largest deviation from 1 beyond the hole, in
+// with --csv FILE, --case NAME for one of them. A step is a frame. g(r) of uniform points is checked by its largest deviation from 1 beyond the hole, in
 // the errors that are quoted; the others by a number that must not change. Points are hard spheres of 0.3 by
 // random sequential addition for what looks at neighbours and voids, uniform points for g(r).
 
@@ -202,20 +202,22 @@ std::string fields(const Frame& frame, int nodes) {
 } // namespace
 
 int main(int argc, char** argv) {
-  const std::string file = argc > 2 && std::string(argv[1]) == "--csv" ? argv[2] : "";
+  std::string file, only;
+  for (int k = 1; k + 1 < argc; k += 2)
+    (std::string(argv[k]) == "--csv" ? file : only) = argv[k + 1];
   const Frame open = cube(100000, true), boxed = cube(100000, false), million = cube(1000000, true);
   const Frame bed = packing(29), mixed = packing(29, true), large = packing(63); // 97556 and 1000188 grains
   Rows rows;
   for (const std::size_t threads : {1, 2}) {
     const auto add = [&](const std::string& name, const Frame& frame,
                          const std::function<std::string()>& work) {
-      rows.add(name, "sandglass", threads, frame.size(), work);
+      if (only.empty() || name == only) rows.add(name, "sandglass", threads, frame.size(), work);
     };
     add("gr_100k_periodic_5d", open, [&] { return gr(open, Estimator::uncorrected); });
     add("gr_100k_box_5d_E3", boxed, [&] { return gr(boxed, Estimator::localShell); });
     add("gr_1m_periodic_5d", million, [&] { return gr(million, Estimator::uncorrected); });
     add("voronoi_radical_100k", mixed, [&] { return voronoi(mixed); });
-    if (threads == 1)
+    if (threads == 1 && (only.empty() || only == "voronoi_radical_100k"))
       rows.add("voronoi_radical_100k", "voro++", 1, mixed.size(), [&] { return voroppItself(mixed); });
     add("q6_100k", bed, [&] { return q6(bed); });
     add("voids_v1_1m_probes", bed, [&] { return v1(bed, 1000000); });
