@@ -65,6 +65,24 @@ SurfaceDistance::Nearest SurfaceDistance::toGrains(const Vec3& point, double eno
   }
 }
 
+void SurfaceDistance::grainsAbout(const Vec3& point, double reach,
+                                  std::vector<std::array<double, 4>>& grains) const {
+  grains.clear();
+  const Vec3 x = wrapped(point);
+  const auto axes = grid_.axes();
+  const std::array<double, 3> c{x[axes[0]], x[axes[1]], x[axes[2]]};
+  grid_.around(c, reach, -1, [&](std::size_t begin, std::size_t end, const auto& shift) {
+    for (std::size_t s = begin; s < end; ++s) {
+      Vec3 apart;
+      for (int k = 0; k < 3; ++k)
+        apart[axes[k]] = grid_.coordinates(k)[s] + shift[k] - c[k];
+      if (apart.squaredNorm() > reach * reach) continue;
+      const Vec3 centre = point + apart;
+      grains.push_back({centre.x(), centre.y(), centre.z(), radius_[s]});
+    }
+  });
+}
+
 double SurfaceDistance::toWalls(const Vec3& point) const {
   double distance = reach_;
   if (walls_.empty()) return distance;
@@ -100,15 +118,49 @@ private:
   std::array<Vec3, 14> direction_;
 };
 
+/// The distance to the grains in a small place, for many looks there: a list of the grains about.
+class Vicinity {
+public:
+  Vicinity(const SurfaceDistance& distance, const Vec3& about, double diameter)
+      : distance_(distance), about_(about), reach_(1.6 * diameter) {
+    distance_.grainsAbout(about, reach_, grains_);
+  }
+  SurfaceDistance::Nearest toGrains(const Vec3& x, double enough = 0) const {
+    double best = distance_.reach();
+    const std::array<double, 4>* nearest = nullptr;
+    for (const auto& grain : grains_) {
+      const double dx = x[0] - grain[0], dy = x[1] - grain[1], dz = x[2] - grain[2];
+      const double d2 = dx * dx + dy * dy + dz * dz, most = best + grain[3];
+      if (d2 >= most * most) continue;
+      best = std::sqrt(d2) - grain[3];
+      nearest = &grain;
+      if (best < enough) break;
+    }
+    // No grain beyond the list may be nearer.
+    const bool known =
+        nearest && (best < enough || (x - about_).norm() + best + distance_.largestRadius() <= reach_);
+    if (!known) return distance_.toGrains(x, enough);
+    const Vec3 away(x[0] - (*nearest)[0], x[1] - (*nearest)[1], x[2] - (*nearest)[2]);
+    return {best, away.normalized()};
+  }
+
+private:
+  const SurfaceDistance& distance_;
+  Vec3 about_;
+  double reach_;
+  std::vector<std::array<double, 4>> grains_;
+};
+
 /// Uphill from x while the sphere contains `inside` (anything, when there is none).
 EmptySphere ascend(const SurfaceDistance& distance, const Region& region, Vec3 x, const Vec3* inside,
                    double firstStep, double tolerance) {
   Compass compass;
+  const Vicinity vicinity(distance, x, 2 * distance.largestRadius());
   double value = distance(x), step = firstStep;
   Vec3 away = distance.toGrains(x).away;
   const auto tryAt = [&](const Vec3& c, double most) {
     // A try that is no better than what there is need not be known exactly.
-    const double v = std::min(distance.toGrains(c, most).distance, distance.toWalls(c));
+    const double v = std::min(vicinity.toGrains(c, most).distance, distance.toWalls(c));
     return v > most && region.contains(c) && (!inside || (c - *inside).squaredNorm() <= v * v) ? v : most;
   };
   // The distance has kinks, and that is where its maxima are: directions are tried, and steps halved when
@@ -127,7 +179,7 @@ EmptySphere ascend(const SurfaceDistance& distance, const Region& region, Vec3 x
     if (most > value) {
       x = best;
       value = most;
-      away = distance.toGrains(x).away;
+      away = vicinity.toGrains(x).away;
       failed = 0;
     } else if (++failed == 2) {
       step *= 0.5;

@@ -5,6 +5,7 @@
 #include "analysis/region.h"
 #include "sim/frame/frame.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -29,6 +30,9 @@ public:
 
   /// The lesser of the two.
   double operator()(const Vec3& x) const { return std::min(toGrains(x).distance, toWalls(x)); }
+
+  /// The grains whose centres lie within `reach` of x, where they are seen from x: x y z and radius of each.
+  void grainsAbout(const Vec3& x, double reach, std::vector<std::array<double, 4>>& grains) const;
 
   bool equalGrains() const { return equal_; }
   double largestRadius() const { return largest_; }

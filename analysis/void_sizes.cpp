@@ -205,12 +205,9 @@ std::vector<double> climbedSizes(const SurfaceDistance& distance, const Region& 
   return sizes;
 }
 
-std::vector<double> largestContaining(const VoidPoints& points, std::vector<EmptySphere> spheres,
+std::vector<double> largestContaining(const VoidPoints& points, const std::vector<EmptySphere>& spheres,
                                       const Domain& domain, double diameter) {
-  // Large ones first, so that most later ones find nothing to improve. The greatest of all does not depend on
-  // order.
-  tbb::parallel_sort(spheres.begin(), spheres.end(),
-                     [](const EmptySphere& a, const EmptySphere& b) { return a.radius > b.radius; });
+  // The greatest of all does not depend on order; spheres that follow each other lie near each other.
   std::vector<Vec3> wrapped = points.point;
   const CellGrid grid(wrapped, domain, 0.5 * diameter);
   const auto axes = grid.axes();

@@ -57,7 +57,7 @@ std::vector<double> climbedSizes(const SurfaceDistance& distance, const Region& 
 
 /// V2 of each void point: the largest of the spheres that contains it, at least `points.distance`. Uses the
 /// calling thread's TBB arena; equal for any number of threads.
-std::vector<double> largestContaining(const VoidPoints& points, std::vector<EmptySphere> spheres,
+std::vector<double> largestContaining(const VoidPoints& points, const std::vector<EmptySphere>& spheres,
                                       const Domain& domain, double diameter);
 
 struct Cavities {
