@@ -2,6 +2,7 @@
 #include "sim/io/frame_segment.h"
 #include "sim/io/import/import_settings.h"
 #include "sim/io/import/reader_table.h"
+#include "sim/io/import/vtkhdf.h"
 #include "sim/io/run_folder.h"
 #include "sim/io/segment_names.h"
 #include "sim/walls/wall_registry.h"
@@ -123,7 +124,7 @@ std::unique_ptr<FrameSource> openFrames(const fs::path& path, const ImportSettin
     return openSequence(path.string(), std::move(files), chosen);
   }
   if (!fs::is_directory(path)) {
-    if (path.extension() == ".vtkhdf") return std::make_unique<SegmentSource>(path, fs::path{});
+    if (isOwnSegment(path)) return std::make_unique<SegmentSource>(path, fs::path{});
     return openForeign(std::make_shared<const ImportFile>(path), settings ? *settings : settingsBeside(path));
   }
   const fs::path frames = path / "frames";

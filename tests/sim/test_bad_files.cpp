@@ -37,6 +37,33 @@ std::string npy(const std::string& shape, std::size_t bytes) {
          std::string(bytes, '\0');
 }
 
+/// One frame of two atoms with id x y z, as LAMMPS writes it into a .bin.
+std::string binaryDump() {
+  std::string bytes;
+  const auto add = [&](auto value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  add(std::int64_t{-10});
+  bytes += "DUMPCUSTOM";
+  add(std::int32_t{1}); // order of bytes
+  add(std::int32_t{2}); // revision
+  add(std::int64_t{100});
+  add(std::int64_t{2});
+  for (const int word : {0, 1, 1, 1, 1, 1, 1}) // upright; open sides
+    add(static_cast<std::int32_t>(word));
+  for (const double bound : {0., 9., 0., 9., 0., 9.})
+    add(bound);
+  add(std::int32_t{4});
+  add(std::int32_t{2});
+  bytes += "si";
+  add(char{0});
+  add(std::int32_t{8});
+  bytes += "id x y z";
+  add(std::int32_t{1});
+  add(std::int32_t{8});
+  for (const double number : {1., 1., 1., 1., 2., 2., 2., 2.})
+    add(number);
+  return bytes;
+}
+
 std::vector<BadFile> badFiles() {
   const std::string good = lammpsFrame("0", "2", "1 1 1 1 1 0.5\n2 1 2 2 2 0.5\n");
   return {
@@ -105,6 +132,21 @@ std::vector<BadFile> badFiles() {
       {"NumPy, giant shape", "a.npy", npy("1, 4000000000, 4", 64), 0},
       {"NumPy, a shape of two columns", "a.npy", npy("5, 2", 80), 0},
       {"NumPy, header cut off", "a.npy", std::string("\x93NUMPY\x01\x00\xff\x7f", 10), 0},
+      {"binary LAMMPS dump, cut off", "a.bin", binaryDump().substr(0, 150), 0},
+      {"binary LAMMPS dump, giant count", "a.bin",
+       binaryDump().replace(34, 8, std::string("\0\0\0\0\0\0\0\x01", 8)), 0},
+      {"binary LAMMPS dump of before 2020", "a.bin", binaryDump().substr(26), 0},
+      {"VTKHDF inside gzip", "a.vtkhdf", "\x89HDF\r\n\x1a\n", 0},
+      {"VTK, several blocks", "a.vtm", "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\">", 0},
+      {"PVD, no XML", "a.pvd", "<VTKFile type=\"Collection\">\n<Collection>\n<DataSet", 0},
+      {"PVD, a file that is not there", "a.pvd",
+       "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"1\" "
+       "file=\"gone.vtp\"/></Collection></VTKFile>",
+       0},
+      {"PVD, a time that is no number", "a.pvd",
+       "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"noon\" "
+       "file=\"a.vtp\"/></Collection></VTKFile>",
+       0},
       {"gzip, damaged", "a.dump.gz",
        std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\xff\xff\xff\xff", 14), 0},
       {"zstd, cut off", "a.dump.zst", std::string("\x28\xb5\x2f\xfd\x04\x58", 6), 0},
@@ -161,7 +203,8 @@ TEST_CASE("Every bad file says what is wrong in one sentence with its place and 
     REQUIRE(said.starts_with(file.name + ":"));
     const std::string place = said.substr(file.name.size() + 1, 9);
     const bool line = place[0] >= '0' && place[0] <= '9';
-    CHECK((line || place.starts_with(" byte ") || place.starts_with(" frame ")));
+    CHECK((line || place.starts_with(" byte ") || place.starts_with(" frame ") ||
+           place.starts_with(" entry ")));
   }
 }
 

@@ -387,3 +387,27 @@ TEST_CASE("Walls beside the grains: a triangle mesh and a scene", "[import]") {
   CHECK(frame->walls[0].shape->bounds().max().x() == Approx(1));
   CHECK_FALSE(source->sceneText().empty());
 }
+
+TEST_CASE("A collection: times from it, parts of one time in one frame, files of any form", "[import]") {
+  const TemporaryFolder folder("collection");
+  std::ofstream(folder / "a.csv") << "x,y,z,radius\n0,0,0,1\n";
+  std::ofstream(folder / "b.csv") << "x,y,z,radius,extra\n1,0,0,1,5\n2,0,0,1,5\n";
+  std::ofstream(folder / "c.csv") << "radius,x,y,z\n0.5,3,0,0\n";
+  std::ofstream(folder / "run.pvd") << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\"><Collection>\n"
+                                       "<DataSet timestep=\"0.5\" part=\"0\" file=\"b.csv\"/>\n"
+                                       "<DataSet timestep=\"0.5\" part=\"1\" file=\"c.csv\"/>\n"
+                                       "<DataSet timestep=\"0.25\" part=\"0\" file=\"a.csv\"/>\n"
+                                       "</Collection></VTKFile>\n";
+  const auto source = openFrames(folder / "run.pvd");
+  while (!source->complete())
+    source->refresh();
+  REQUIRE(source->size() == 2);
+  CHECK(source->time(0) == 0.25);
+  CHECK(source->time(1) == 0.5);
+  const FramePtr frame = source->load(1);
+  REQUIRE(frame->size() == 3);
+  CHECK(frame->position[2] == Vec3(3, 0, 0));
+  CHECK(frame->scalar(quantity::radius) == std::vector<double>{1, 1, 0.5});
+  CHECK_FALSE(frame->has("extra")); // one part alone has it
+  CHECK(source->load(0)->size() == 1);
+}

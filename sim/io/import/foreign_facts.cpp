@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/io/import/column_set.h"
 #include "sim/io/import/reader_table.h"
+#include "sim/io/import/vtkhdf.h"
 
 #include <fmt/format.h>
 
@@ -43,8 +44,7 @@ ForeignColumn factsOf(const RawColumn& column, std::string quantity) {
 } // namespace
 
 bool isForeign(const fs::path& path) {
-  return !filesOfPattern(path.string()).empty() ||
-         (fs::is_regular_file(path) && path.extension() != ".vtkhdf");
+  return !filesOfPattern(path.string()).empty() || (fs::is_regular_file(path) && !isOwnSegment(path));
 }
 
 ForeignFacts foreignFacts(const fs::path& path, const ImportSettings* settings) {

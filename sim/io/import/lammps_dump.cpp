@@ -10,13 +10,13 @@
 
 #include "sim/io/import/lammps_dump.h"
 
+#include "sim/io/import/lammps_box.h"
 #include "sim/io/import/row_parser.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace sandglass {
 
@@ -75,9 +75,7 @@ public:
       names = oldColumns(in, cellsOf(line).size(), frame);
     nameColumns(frame, names);
     if (!header.units.empty() && header.units != "si" && header.units != "lj")
-      frame.remarks.push_back(fmt::format(
-          "the file is in LAMMPS units '{}'; give their sizes under [units] in the file of --columns",
-          header.units));
+      frame.remarks.push_back(unitsRemark(header.units));
     RowParser parser(in, frame);
     parser.expect(*header.count, bytesLeft(in));
     for (std::uint64_t k = 0; k < *header.count; ++k) {
@@ -142,16 +140,6 @@ private:
     return value && std::isfinite(*value) ? value : std::optional<double>{};
   }
 
-  /// Bounds of a tilted box are those of all its corners: lower.x = xlo + min(0, xy, xz, xy + xz) and so on
-  /// (https://docs.lammps.org/Howto_triclinic.html).
-  static void takeCornersOff(Domain& box, const Vec3& tilt) {
-    const auto [xy, xz, yz] = std::tuple(tilt[0], tilt[1], tilt[2]);
-    box.lower[0] -= std::min({0.0, xy, xz, xy + xz});
-    box.upper[0] -= std::max({0.0, xy, xz, xy + xz});
-    box.lower[1] -= std::min(0.0, yz);
-    box.upper[1] -= std::max(0.0, yz);
-  }
-
   static Domain readBox(LineReader& in, const std::string& item, Vec3& tilts) {
     Domain box;
     const auto words = cellsOf(std::string_view(item).substr(10));
@@ -182,8 +170,7 @@ private:
       box.lower[k] = *low;
       box.upper[k] = *high;
     }
-    takeCornersOff(box, tilts);
-    if (!(box.lower.array() <= box.upper.array()).all())
+    if (!takeCornersOff(box, tilts))
       in.fail(fmt::format("the tilts {:g} {:g} {:g} are larger than the bounds of the box allow", tilts[0],
                           tilts[1], tilts[2]));
     return box;

@@ -1,9 +1,12 @@
 #include "sim/io/import/reader_table.h"
 
 #include "sim/base/error.h"
+#include "sim/io/import/lammps_binary.h"
 #include "sim/io/import/lammps_dump.h"
 #include "sim/io/import/npy.h"
+#include "sim/io/import/pvd.h"
 #include "sim/io/import/table_text.h"
+#include "sim/io/import/vtkhdf.h"
 #include "sim/io/import/xyz.h"
 
 #include <fmt/format.h>
@@ -13,7 +16,8 @@ namespace sandglass {
 namespace {
 
 std::vector<ReaderKind>& kinds() {
-  static std::vector<ReaderKind> all{lammpsDump(), npy(), xyz(), csv(), pointRows()};
+  static std::vector<ReaderKind> all{lammpsDump(), lammpsBinary(), npy(), vtkhdf(),
+                                     pvd(),        xyz(),          csv(), pointRows()};
   return all;
 }
 
@@ -45,6 +49,18 @@ const ReaderKind& readerFor(const ImportFile& file) {
   if (head.starts_with("\xef\xbb\xbf")) head.erase(0, 3);
   for (const auto& kind : kinds())
     if (kind.recognises(head)) return kind;
+  if (looksLikeOldLammpsBinary(head))
+    throw InputError(
+        fmt::format("{}: byte 0: this looks like a binary LAMMPS dump of before 2020, which does not "
+                    "name its columns; turn it into text with LAMMPS' tool binary2txt, or read it "
+                    "with a newer LAMMPS (rerun) and dump it again",
+                    file.name()));
+  for (const char* block : {"vtkMultiBlockDataSet", "vtkPartitionedDataSet", "vtkHierarchicalBoxDataSet"})
+    if (head.find("<VTKFile") < 1024 && head.find(block) != std::string::npos)
+      throw InputError(
+          fmt::format("{}: byte {}: this is a {}, a list of other files; name the one that holds the "
+                      "grains, or all of them as a pattern in quotes",
+                      file.name(), head.find(block), block));
   std::string due;
   for (const auto& kind : kinds())
     due += (due.empty() ? "" : "; ") + kind.expected;
