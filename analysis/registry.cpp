@@ -1,28 +1,68 @@
 #include "analysis/registry.h"
 
 #include "analysis/kinds/kinds.h"
+#include "analysis/whole_circle.h"
 #include "sim/base/error.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace sandglass::analysis {
+
+namespace {
+
+class WedgeAnalysis final : public Analysis {
+public:
+  WedgeAnalysis(std::unique_ptr<Analysis> work, const Sector& sector)
+      : work_(std::move(work)), circle_(sector) {}
+
+  void add(const Frame& frame) override {
+    grains_ = frame.size();
+    work_->add(circle_.add(frame));
+  }
+
+  Results results() const override {
+    Results results = work_->results();
+    const std::string remark = fmt::format(
+        "of a wedge: its grains and their {} images, which errors count as independent, so that they "
+        "are up to {:.2g} times larger",
+        circle_.sector().count() - 1, std::sqrt(circle_.sector().count()));
+    const auto say = [&](auto& list) {
+      for (auto& result : list)
+        result.definition += (result.definition.empty() ? "" : "; ") + remark;
+    };
+    say(results.curves);
+    say(results.tables);
+    say(results.fields);
+    for (auto& values : results.grains)
+      values.values.resize(std::min(values.values.size(), grains_));
+    results.sentences.push_back(remark);
+    return results;
+  }
+
+private:
+  std::unique_ptr<Analysis> work_;
+  WholeCircle circle_;
+  std::size_t grains_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<Analysis> makeAnalysis(const AnalysisKind& kind, const Parameters& knobs,
+                                       const AnalysisContext& context) {
+  auto work = kind.make(knobs, context);
+  if (context.facts.sector.whole()) return work;
+  return std::make_unique<WedgeAnalysis>(std::move(work), context.facts.sector);
+}
 
 const std::vector<AnalysisKind>& analysisKinds() {
   static const std::vector<AnalysisKind> kinds{
-      pairCorrelationKind(),
-      bondAngleKind(),
-      voidsKind(),
-      voronoiKind(),
-      orderKind(),
-      coordinationKind(),
-      stateKind(),
-      fieldsKind(),
-      motionKind(),
-      mixingKind(),
-      clumpsKind(),
-      forcesKind(),
-      vortexKind(),
+      pairCorrelationKind(), bondAngleKind(), voidsKind(),  voronoiKind(), orderKind(),
+      coordinationKind(),    stateKind(),     fieldsKind(), motionKind(),  mixingKind(),
+      clumpsKind(),          forcesKind(),    vortexKind(),
   };
   return kinds;
 }
@@ -70,7 +110,7 @@ Results analyze(const AnalysisKind& kind, const Parameters& knobs, const Analysi
     throw InputError(fmt::format("{} needs at least {} frames, but there {} {}", kind.title,
                                  kind.needs.frames, frames.size() == 1 ? "is" : "are", frames.size()));
   if (const auto why = reasonAgainst(kind, *frames.front(), context); !why.empty()) throw InputError(why);
-  const auto work = kind.make(knobs, context);
+  const auto work = makeAnalysis(kind, knobs, context);
   for (const auto& frame : frames)
     work->add(*frame);
   return work->results();

@@ -8,7 +8,7 @@
 //   setKnob(knobs, kind, "cutoff", "1.4");          // or knobs.set("cutoff", 1.4)
 //   AnalysisContext context;                        // up, gates, limits, diameter, seed
 //   if (auto why = reasonAgainst(kind, *frame, context); !why.empty()) ...;
-//   auto work = kind.make(knobs, context);
+//   auto work = makeAnalysis(kind, knobs, context);
 //   work->add(*frame);                              // as many as there are, in order of time
 //   Results results = work->results();
 
@@ -62,8 +62,14 @@ struct AnalysisKind {
   std::string source;      ///< formula's paper or book, short
   AnalysisNeeds needs;
   std::vector<ParameterSpec> knobs; ///< all have a fallback; lengths in mean grain diameters
+  /// For makeAnalysis().
   std::unique_ptr<Analysis> (*make)(const Parameters& knobs, const AnalysisContext& context) = nullptr;
 };
+
+/// One at work. Of a wedge it looks at the whole circle (analysis/whole_circle.h) and says so; values of
+/// single grains are those of the Frame's own.
+std::unique_ptr<Analysis> makeAnalysis(const AnalysisKind& kind, const Parameters& knobs,
+                                       const AnalysisContext& context);
 
 /// All, in the order of the documentation.
 const std::vector<AnalysisKind>& analysisKinds();

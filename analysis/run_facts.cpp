@@ -37,6 +37,7 @@ RunFacts factsOf(const Scene& scene) {
       facts.outlet = p.number("outlet");
     }
   }
+  facts.sector = scene.sector();
   facts.tank = tankOf(scene);
   for (const auto& outlet : scene.outlets)
     if (outlet.record && !facts.wayOut) facts.wayOut = outlet.normal.normalized();

@@ -3,6 +3,7 @@
 
 #include "analysis/beverloo.h"
 #include "analysis/vortex/vortex_tank.h"
+#include "sim/math/sector.h"
 #include "sim/scene/scene.h"
 
 #include <optional>
@@ -26,6 +27,7 @@ struct RunFacts {
   double outlet = 0;                ///< its width or diameter [m]
   std::optional<Slot> slot;         ///< of the first wedge
   std::optional<double> slotDepth;  ///< [m], of a slot along a periodic axis
+  Sector sector;                    ///< of a wedge; the whole circle without
   std::optional<VortexTank> tank;   ///< an upright round one
   double grainDensity = 0;          ///< [kg/m^3], where all species have the same; else 0
   std::vector<double> densities;    ///< [kg/m^3] by species

@@ -4,6 +4,7 @@
 #include "analysis/discharge.h"
 #include "analysis/packing.h"
 #include "analysis/series_data.h"
+#include "analysis/whole_circle.h"
 #include "app/cli/analyze_flow.h"
 #include "app/cli/analyze_kinds.h"
 #include "app/cli/analyze_options.h"
@@ -39,8 +40,14 @@ void analyzePacking(const Source& source, const AnalyzeOptions& options, ResultF
   o.diameter = diameterFor(options, *first);
   o.region = limitsFor(source, options, o.diameter);
   PackingProfile profile(o);
-  for (std::size_t f = from; f <= to; ++f)
-    profile.add(*source.frames->load(f));
+  WholeCircle circle(source.facts.sector);
+  for (std::size_t f = from; f <= to; ++f) {
+    const FramePtr frame = source.frames->load(f);
+    if (source.facts.sector.whole())
+      profile.add(*frame);
+    else
+      profile.add(circle.add(*frame));
+  }
   Curve curve = profile.result();
   curve.provenance["frame_indices"] = fmt::format("{}:{}", from, to);
   stamp(curve, source, *first);

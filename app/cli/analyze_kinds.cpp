@@ -119,7 +119,7 @@ void analyzeKind(const AnalysisKind& kind, const Source& source, const AnalyzeOp
   if (const auto why = reasonAgainst(kind, *first, context); !why.empty())
     throw InputError(fmt::format("{}: {}", source.path.string(), why));
 
-  const auto work = kind.make(knobs, context);
+  const auto work = makeAnalysis(kind, knobs, context);
   ProgressBar bar(kind.title);
   FramePtr last = first;
   for (std::size_t f = from; f <= to; ++f) {

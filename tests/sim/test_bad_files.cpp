@@ -64,6 +64,13 @@ std::string binaryDump() {
   return bytes;
 }
 
+std::string deep() {
+  std::string text;
+  for (int k = 0; k < 100000; ++k)
+    text += "<a b='/>'>";
+  return text;
+}
+
 std::vector<BadFile> badFiles() {
   const std::string good = lammpsFrame("0", "2", "1 1 1 1 1 0.5\n2 1 2 2 2 0.5\n");
   return {
@@ -139,6 +146,7 @@ std::vector<BadFile> badFiles() {
       {"VTKHDF inside gzip", "a.vtkhdf", "\x89HDF\r\n\x1a\n", 0},
       {"VTK, several blocks", "a.vtm", "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\">", 0},
       {"PVD, no XML", "a.pvd", "<VTKFile type=\"Collection\">\n<Collection>\n<DataSet", 0},
+      {"PVD, elements in elements without end", "a.pvd", "<VTKFile type=\"Collection\">" + deep(), 0},
       {"PVD, a file that is not there", "a.pvd",
        "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"1\" "
        "file=\"gone.vtp\"/></Collection></VTKFile>",

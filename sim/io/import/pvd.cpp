@@ -13,6 +13,7 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -25,6 +26,31 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t mostBytes = std::size_t{64} << 20;
 
+/// How deep the elements of a text are nested: the parser calls itself for each level.
+std::size_t nesting(std::string_view text) {
+  std::size_t depth = 0, deepest = 0;
+  const auto past = [&](std::string_view end, std::size_t from) {
+    const std::size_t at = text.find(end, from);
+    return at == std::string_view::npos ? text.size() : at + end.size();
+  };
+  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+    const std::string_view rest = text.substr(at);
+    if (rest.starts_with("<!--") || rest.starts_with("<![CDATA[") || rest.starts_with("<?")) {
+      at = past(rest[1] == '?' ? "?>" : rest[2] == '-' ? "-->" : "]]>", at);
+      continue;
+    }
+    const bool closing = rest.starts_with("</");
+    char quote = 0, before = 0;
+    for (++at; at < text.size() && (quote || text[at] != '>'); ++at) {
+      if (quote ? text[at] == quote : text[at] == '"' || text[at] == '\'') quote = quote ? 0 : text[at];
+      before = text[at];
+    }
+    if (closing && depth > 0) --depth;
+    if (!closing && before != '/') deepest = std::max(deepest, ++depth);
+  }
+  return deepest;
+}
+
 class Pvd final : public FrameFormat {
 public:
   Pvd(const ImportFile& file, const ImportSettings& settings) : name_(file.name()), settings_(settings) {
@@ -32,6 +58,10 @@ public:
     std::string text = file.head(mostBytes + 1);
     if (text.size() > mostBytes)
       throw InputError(fmt::format("{}: byte {}: a larger collection is not read", name_, mostBytes));
+    constexpr std::size_t deepest = 50;
+    if (nesting(text) > deepest)
+      throw InputError(fmt::format(
+          "{}: byte 0: its elements are nested deeper than {}; this is no collection", name_, deepest));
     boost::property_tree::ptree tree;
     try {
       std::istringstream in(text);
