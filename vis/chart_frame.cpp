@@ -25,6 +25,16 @@ namespace {
 constexpr float margin = 18, titleSize = 17, keySize = 13, smallSize = 11, markSize = 12;
 constexpr float axisSize = 14;
 constexpr float titleLine = 34, keyLine = 22, smallLine = 16, axisLine = 24;
+constexpr float sampleWidth = 30, pointWidth = 10, sampleGap = 7, entryGap = 24; // of the key
+
+// A panel is for the curve: there the definition has this share of the height, at least a line, and none
+// where the panel is flat.
+constexpr int panelHeight = 400, flatHeight = 140;
+constexpr float panelShare = 0.1F;
+constexpr std::size_t mostKeyRows = 3;
+
+// DejaVu Sans is about half of its size wide on average.
+constexpr float letterWidth = 0.51F, wideLetterWidth = 0.58F;
 
 void setText(vtkContext2D* painter, float size, double strength, bool bold = false) {
   vtkTextProperty* style = painter->GetTextProp();
@@ -54,10 +64,9 @@ bool ChartFrame::hasKey() const {
 std::vector<std::string> ChartFrame::definitionLines() const {
   std::string text = curve.definition;
   if (curve.frames > 1) text += fmt::format("{}{} frames averaged.", text.empty() ? "" : " ", curve.frames);
-  // DejaVu Sans is about 0.5 of its size wide on average.
   const float s = chartScale(width, height);
   const auto longest = static_cast<std::size_t>(
-      std::max(20.0F, (static_cast<float>(width) - 2 * margin * s) / (0.51F * smallSize * s)));
+      std::max(20.0F, (static_cast<float>(width) - 2 * margin * s) / (letterWidth * smallSize * s)));
   std::vector<std::string> lines;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
@@ -66,14 +75,46 @@ std::vector<std::string> ChartFrame::definitionLines() const {
     else
       lines.back() += " " + word;
   }
+  if (height < flatHeight) return {};
+  if (height < panelHeight) {
+    const auto most = std::max<std::size_t>(
+        1, static_cast<std::size_t>(panelShare * static_cast<float>(height) / (smallLine * s)));
+    if (lines.size() > most) {
+      lines.resize(most);
+      lines.back().resize(std::min(lines.back().size(), longest - 4));
+      lines.back() += " ...";
+    }
+  }
   return lines;
+}
+
+std::vector<std::vector<std::size_t>> ChartFrame::keyRows() const {
+  std::vector<std::vector<std::size_t>> rows;
+  if (!hasKey()) return rows;
+  const float s = chartScale(width, height), right = static_cast<float>(width) - margin * s;
+  float x = 0;
+  for (std::size_t k = 0; k < curve.series.size(); ++k) {
+    const auto& series = curve.series[k];
+    if (!series.scatter && series.x.empty()) continue;
+    const float wide = s * ((series.scatter ? pointWidth : sampleWidth) + sampleGap +
+                            wideLetterWidth * keySize * static_cast<float>(series.name.size()));
+    if (rows.empty() || (x + wide > right && !rows.back().empty())) {
+      if (rows.size() == mostKeyRows) break;
+      rows.emplace_back();
+      x = margin * s;
+    }
+    rows.back().push_back(k);
+    x += wide + entryGap * s;
+  }
+  return rows;
 }
 
 ChartMargins ChartFrame::margins() const {
   const float s = chartScale(width, height);
   const auto lines = static_cast<float>(definitionLines().size());
   ChartMargins m;
-  m.top = s * (margin / 2 + (curve.title.empty() ? 0 : titleLine) + (hasKey() ? keyLine : 0));
+  m.top = s * (margin / 2 + (curve.title.empty() ? 0 : titleLine) +
+               static_cast<float>(keyRows().size()) * keyLine);
   m.bottom = s * (axisLine + (lines > 0 ? margin / 2 + lines * smallLine : margin / 4));
   m.left = s * (margin / 2 + axisLine);
   m.right = s * margin;
@@ -88,7 +129,7 @@ bool ChartFrame::Paint(vtkContext2D* painter) {
     painter->DrawString(std::round(margin * s), std::round(y), curve.title.c_str());
     y -= s * (titleLine + keyLine) / 2;
   }
-  if (hasKey()) paintKey(painter, std::round(y));
+  paintKey(painter, y);
   paintMarks(painter);
   paintAxisTitles(painter);
   const auto lines = definitionLines();
@@ -101,14 +142,20 @@ bool ChartFrame::Paint(vtkContext2D* painter) {
   return true;
 }
 
-void ChartFrame::paintKey(vtkContext2D* painter, float y) const {
+void ChartFrame::paintKey(vtkContext2D* painter, float top) const {
+  const float step = keyLine * chartScale(width, height);
+  const auto rows = keyRows();
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    paintKeyRow(painter, rows[k], std::round(top - static_cast<float>(k) * step));
+}
+
+void ChartFrame::paintKeyRow(vtkContext2D* painter, const std::vector<std::size_t>& row, float y) const {
   const float s = chartScale(width, height);
   float x = std::round(margin * s);
-  for (std::size_t k = 0; k < curve.series.size(); ++k) {
+  for (const std::size_t k : row) {
     const SeriesStyle style = styleOf(curve.series[k], k);
     const bool scatter = curve.series[k].scatter;
-    if (!scatter && curve.series[k].x.empty()) continue;
-    const float sample = (scatter ? 10 : 30) * s;
+    const float sample = (scatter ? pointWidth : sampleWidth) * s;
     painter->GetPen()->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
     painter->GetPen()->SetLineType(style.line);
     painter->GetPen()->SetWidth(2 * s);
@@ -122,8 +169,8 @@ void ChartFrame::paintKey(vtkContext2D* painter, float y) const {
     }
     setText(painter, keySize * s, 0.8);
     const std::string& name = curve.series[k].name;
-    painter->DrawString(std::round(x + sample + 7 * s), y, name.c_str());
-    x += std::round(sample + 7 * s + widthOf(painter, name) + 24 * s);
+    painter->DrawString(std::round(x + sample + sampleGap * s), y, name.c_str());
+    x += std::round(sample + sampleGap * s + widthOf(painter, name) + entryGap * s);
   }
 }
 
@@ -140,9 +187,16 @@ void ChartFrame::paintAxisTitles(vtkContext2D* painter) const {
   painter->GetTextProp()->SetJustificationToCentered();
   const float belowAxis = margins().bottom - axisLine * s / 2;
   painter->DrawString(std::round((area.x0 + area.x1) / 2), std::round(belowAxis), xTitle.c_str());
+  // A title longer than its axis may go on below it, where there is room; then its letters get smaller.
+  const float lowest = margins().bottom - axisLine * s, room = area.y1 - lowest;
+  const float size =
+      std::clamp(axisSize * s * room / widthOf(painter, yTitle), 0.75F * axisSize * s, axisSize * s);
+  setText(painter, size, 0.8);
+  painter->GetTextProp()->SetJustificationToCentered();
+  const float half = widthOf(painter, yTitle) / 2;
+  const float y = std::min((area.y0 + area.y1) / 2, area.y1 - half);
   painter->GetTextProp()->SetOrientation(90);
-  painter->DrawString(std::round(s * (margin / 2 + axisLine / 2)), std::round((area.y0 + area.y1) / 2),
-                      yTitle.c_str());
+  painter->DrawString(std::round(s * (margin / 2 + axisLine / 2)), std::round(y), yTitle.c_str());
   painter->GetTextProp()->SetOrientation(0);
 }
 

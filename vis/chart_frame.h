@@ -40,7 +40,10 @@ public:
 private:
   std::vector<std::string> definitionLines() const;
   bool hasKey() const;
-  void paintKey(vtkContext2D* painter, float y) const;
+  /// Series in the key, row by row: as many in each as the chart is wide enough for.
+  std::vector<std::vector<std::size_t>> keyRows() const;
+  void paintKey(vtkContext2D* painter, float top) const;
+  void paintKeyRow(vtkContext2D* painter, const std::vector<std::size_t>& row, float y) const;
   void paintMarks(vtkContext2D* painter) const;
   void paintAxisTitles(vtkContext2D* painter) const;
 };

@@ -74,7 +74,8 @@ Curve densityOf(const std::vector<double>& values, const std::string& name, cons
     histogram.add(v);
   Curve curve;
   curve.x = {name, unit};
-  curve.y = {"density", unit.empty() ? "" : "1/(" + unit + ")"};
+  const bool compound = unit.find_first_of("/* ") != std::string::npos;
+  curve.y = {"density", unit.empty() ? "" : compound ? "1/(" + unit + ")" : "1/" + unit};
   curve.frames = 1;
   const analysis::Series middle = histogram.density("");
   analysis::Series stairs;

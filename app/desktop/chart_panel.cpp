@@ -3,10 +3,11 @@
 #include "app/desktop/chart_curves.h"
 #include "app/desktop/style.h"
 
-#include <QHBoxLayout>
+#include <QHelpEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QSignalBlocker>
+#include <QToolTip>
 #include <QWheelEvent>
 
 #include <algorithm>
@@ -25,17 +26,21 @@ constexpr int shortestDrag = 6; ///< [pixel]
 ChartPanel::ChartPanel(const QString& name, const QString& hint, QWidget* parent)
     : QWidget(parent), hint_(hint) {
   setObjectName(name);
-  setMinimumSize(180, 140);
+  setMinimumSize(180, 130);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMouseTracking(true);
-  setToolTip("");
   bar_ = new QWidget(this);
   bar_->setObjectName("chartBar");
   bar_->setAttribute(Qt::WA_StyledBackground);
-  auto* row = new QHBoxLayout(bar_);
-  row->setContentsMargins(6, 2, 6, 2);
-  row->setSpacing(2);
-  row->addStretch(1);
+  rows_ = new QBoxLayout(QBoxLayout::LeftToRight, bar_);
+  rows_->setContentsMargins(6, 2, 6, 2);
+  rows_->setSpacing(1);
+  choices_ = new QHBoxLayout;
+  rows_->addLayout(choices_, 1);
+  buttons_ = new QHBoxLayout;
+  buttons_->setSpacing(1);
+  buttons_->addStretch(1);
+  rows_->addLayout(buttons_);
   connect(button("pin", "Pin", "Keep this curve for comparison with those that come"), &QToolButton::clicked,
           this, &ChartPanel::pin);
   unpin_ = button("unpin", "Unpin", "Take the pinned curves away");
@@ -66,8 +71,16 @@ QToolButton* ChartPanel::button(const char* name, const QString& text, const QSt
   made->setAccessibleName(text);
   made->setAutoRaise(true);
   made->setFocusPolicy(Qt::TabFocus);
-  bar_->layout()->addWidget(made);
+  buttons_->addWidget(made);
   return made;
+}
+
+void ChartPanel::addChoice(QComboBox* box) {
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(8);
+  choices_->insertWidget(0, box, 1);
+  box->show();
+  layOut();
 }
 
 void ChartPanel::offerQuantities(const std::vector<std::string>& names) {
@@ -75,7 +88,7 @@ void ChartPanel::offerQuantities(const std::vector<std::string>& names) {
     quantity_ = new QComboBox(bar_);
     quantity_->setObjectName("chartQuantity");
     quantity_->setAccessibleName("Quantity");
-    static_cast<QHBoxLayout*>(bar_->layout())->insertWidget(0, quantity_);
+    addChoice(quantity_);
     connect(quantity_, QOverload<int>::of(&QComboBox::activated), this, [this] {
       zoom_.reset();
       Q_EMIT quantityChosen();
@@ -104,9 +117,7 @@ void ChartPanel::setCurves(std::vector<analysis::Curve> curves) {
     which_ = new QComboBox(bar_);
     which_->setObjectName("curve");
     which_->setAccessibleName("Curve");
-    which_->setMinimumWidth(100);
-    which_->setMaximumWidth(170);
-    static_cast<QHBoxLayout*>(bar_->layout())->insertWidget(0, which_);
+    addChoice(which_);
     connect(which_, QOverload<int>::of(&QComboBox::activated), this, [this](int k) {
       zoom_.reset();
       if (k >= 0 && static_cast<std::size_t>(k) < curves_.size()) show(curves_[static_cast<std::size_t>(k)]);
@@ -120,6 +131,7 @@ void ChartPanel::setCurves(std::vector<analysis::Curve> curves) {
     which_->addItems(names);
     which_->setCurrentIndex(chosen);
     which_->setVisible(curves_.size() > 1);
+    layOut();
   }
   show(curves_[static_cast<std::size_t>(chosen)]);
 }
@@ -181,12 +193,14 @@ void ChartPanel::pin() {
     pins_.push_back(std::move(series));
   }
   unpin_->show();
+  layOut();
   want();
 }
 
 void ChartPanel::unpin() {
   pins_.clear();
   unpin_->hide();
+  layOut();
   want();
 }
 
@@ -215,12 +229,20 @@ void ChartPanel::want() {
 }
 
 void ChartPanel::resizeEvent(QResizeEvent*) {
+  layOut();
+  want();
+}
+
+void ChartPanel::layOut() {
+  // In one row where there is room, else what is shown above what is done with it.
+  const bool fits = choices_->minimumSize().width() + buttons_->sizeHint().width() + 16 <= width();
+  rows_->setDirection(fits ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  rows_->invalidate();
   const int bar = bar_->sizeHint().height();
   bar_->setGeometry(0, height() - bar, width(), bar);
   if (knobs_)
     knobs_->setGeometry(6, height() - bar - knobs_->sizeHint().height() - 2, width() - 12,
                         knobs_->sizeHint().height());
-  want();
 }
 
 void ChartPanel::showEvent(QShowEvent*) {
@@ -264,6 +286,15 @@ void ChartPanel::wheelEvent(QWheelEvent* event) {
   const double x = valueAt(event->position().x());
   zoomTo(x + (place_.xLow - x) * factor, x + (place_.xHigh - x) * factor);
   event->accept();
+}
+
+bool ChartPanel::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip || !curve_ || image_.isNull()) return QWidget::event(event);
+  const auto* help = static_cast<QHelpEvent*>(event);
+  if (help->y() * devicePixelRatioF() > place_.bottom) // beside the axes the pointer reads values out
+    QToolTip::showText(help->globalPos(),
+                       "<p>" + QString::fromStdString(curve_->definition).toHtmlEscaped() + "</p>", this);
+  return true;
 }
 
 void ChartPanel::leaveEvent(QEvent*) {

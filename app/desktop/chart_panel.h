@@ -8,6 +8,7 @@
 #include "vis/renderer.h"
 
 #include <QComboBox>
+#include <QHBoxLayout>
 #include <QImage>
 #include <QLineEdit>
 #include <QToolButton>
@@ -57,6 +58,7 @@ Q_SIGNALS:
   void knobsChanged();
 
 protected:
+  bool event(QEvent* event) override; ///< the whole definition as tool tip: small charts cut it short
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void showEvent(QShowEvent* event) override;
@@ -69,6 +71,8 @@ protected:
 
 private:
   QToolButton* button(const char* name, const QString& text, const QString& tip);
+  void addChoice(QComboBox* box);
+  void layOut();
   using QWidget::show;
   void show(analysis::Curve curve);
   void want();
@@ -77,6 +81,8 @@ private:
   void paintReadOut(QPainter& painter);
 
   QWidget* bar_;
+  QBoxLayout* rows_;
+  QHBoxLayout *choices_, *buttons_;
   QToolButton *logX_, *logY_, *unpin_;
   QComboBox *quantity_ = nullptr, *which_ = nullptr;
   QLineEdit* knobs_ = nullptr;

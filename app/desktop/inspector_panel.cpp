@@ -73,7 +73,7 @@ InspectorPanel::InspectorPanel(QWidget* parent) : QWidget(parent) {
   values_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   history_ = new ChartPanel(
       "history", "Click a grain in the picture: its values, contacts and history appear here.", split);
-  history_->setMinimumHeight(170);
+  history_->setMinimumHeight(120);
   split->setStretchFactor(0, 1);
   split->setStretchFactor(1, 1);
   column->addWidget(split);

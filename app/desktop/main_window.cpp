@@ -17,6 +17,7 @@
 #include <QDragEnterEvent>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QScrollArea>
 #include <QSplitter>
 #include <QStatusBar>
 #include <QVBoxLayout>
@@ -26,6 +27,16 @@ namespace sandglass::desktop {
 namespace {
 
 constexpr int curveInterval = 1000; ///< [ms] between looks at the probes' new samples
+
+/// A panel that may be less high than what it holds.
+QScrollArea* scrolling(QWidget* content) {
+  auto* area = new QScrollArea;
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setWidget(content);
+  return area;
+}
 
 } // namespace
 
@@ -135,7 +146,7 @@ QDockWidget* MainWindow::addDock(const QString& id, const QString& title, QWidge
 
 void MainWindow::buildDocks() {
   auto* view = addDock("view", "View", viewPanel_ = new ViewPanel, Qt::LeftDockWidgetArea);
-  auto* run = addDock("run", "Run", run_ = new RunPanel, Qt::LeftDockWidgetArea);
+  auto* run = addDock("run", "Run", scrolling(run_ = new RunPanel), Qt::LeftDockWidgetArea);
   auto* scene = addDock("scene", "Scene", scene_ = new ScenePanel, Qt::LeftDockWidgetArea);
   auto* accuracy = addDock("accuracy", "Speed", accuracy_ = new AccuracyPanel, Qt::LeftDockWidgetArea);
   auto* log = addDock("log", "Log", log_ = new LogPanel, Qt::LeftDockWidgetArea);

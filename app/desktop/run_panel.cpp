@@ -1,6 +1,5 @@
 #include "app/desktop/run_panel.h"
 
-#include <QFormLayout>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
@@ -53,7 +52,7 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   setObjectName("runPanel");
   setAutoFillBackground(true);
   setBackgroundRole(QPalette::Base);
-  auto* form = new QFormLayout(this);
+  auto* form = form_ = new QFormLayout(this);
   form->setContentsMargins(12, 10, 12, 10);
   form->setVerticalSpacing(7);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
@@ -106,7 +105,7 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   removeWall_ = button("removeWall", "Remove", "Take this wall or gate away before the next step");
   gate->addWidget(walls_, 1);
   gate->addWidget(removeWall_);
-  form->addRow("Wall", gate);
+  form->addRow("Wall", wall_ = gate);
   auto* move = new QHBoxLayout;
   movers_ = new QComboBox(this);
   movers_->setObjectName("wallToPace");
@@ -122,7 +121,7 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   move->addWidget(movers_, 1);
   move->addWidget(wallPace_);
   move->addWidget(applyPace_);
-  form->addRow("Motion", move);
+  form->addRow("Motion", motion_ = move);
   auto* blow = new QHBoxLayout;
   fields_ = new QComboBox(this);
   fields_->setObjectName("fieldToChange");
@@ -138,7 +137,7 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   blow->addWidget(fields_, 1);
   blow->addWidget(fieldFactor_);
   blow->addWidget(applyField_);
-  form->addRow("Field", blow);
+  form->addRow("Field", field_ = blow);
   auto* turn = new QHBoxLayout;
   endStage_ = button("endStage", "End stage", "The next stage begins after the next step");
   branch_ = button("branch", "Branch here", "What if: a new run that shares the past up to the frame shown");
@@ -216,8 +215,17 @@ void RunPanel::setScene(const std::optional<Scene>& scene) {
       wallPace_->setValue(1);
     }
   }
+  showRow(wall_, scene_ && !scene_->walls.empty());
+  showRow(motion_, scene_ && movers_->count() > 0);
+  showRow(field_, scene_ && fields_->count() > 0);
   showStages();
   showEvents();
+}
+
+void RunPanel::showRow(QLayout* row, bool shown) {
+  if (auto* label = form_->labelForField(row)) label->setVisible(shown);
+  for (int k = 0; k < row->count(); ++k)
+    if (QWidget* widget = row->itemAt(k)->widget()) widget->setVisible(shown);
 }
 
 void RunPanel::setFrame(const Frame& frame) {

@@ -6,6 +6,7 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFormLayout>
 #include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
@@ -35,6 +36,8 @@ Q_SIGNALS:
 
 private:
   QPushButton* button(const char* name, const QString& text, const QString& tip);
+  /// A row of the form for something that not every scene has.
+  void showRow(QLayout* row, bool shown);
   void showStages();
   void showEvents();
 
@@ -44,6 +47,8 @@ private:
   QDoubleSpinBox *drag_, *wallPace_, *fieldFactor_;
   QPushButton *applyPace_, *applyField_, *applyGravity_, *applyDrag_, *removeWall_, *endStage_, *branch_;
   QLabel* events_;
+  QFormLayout* form_;
+  QLayout *motion_, *field_, *wall_; ///< rows
   std::optional<Scene> scene_;
   std::string stage_;
   bool runs_ = false, complete_ = false;

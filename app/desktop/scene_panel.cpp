@@ -146,8 +146,9 @@ void ScenePanel::setText(const QString& text) {
     writing_ = false;
   }
   showForm();
+  all_->setVisible(!text.isEmpty());
   if (text.isEmpty())
-    state_->clear();
+    state_->setText("No scene: open one, or a run. Files of frames alone cannot be run.");
   else
     pause_.start();
 }

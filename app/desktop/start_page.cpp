@@ -15,7 +15,7 @@ namespace sandglass::desktop {
 
 namespace {
 
-constexpr int cardWidth = 236, pictureWidth = 212, pictureHeight = 138; ///< [pixel]
+constexpr int cardWidth = 220, pictureWidth = 200, pictureHeight = 130; ///< [pixel]
 constexpr int mostRecent = 8;
 
 /// The title line of a scene, without reading the rest.
@@ -25,6 +25,16 @@ QString titleOf(const QString& file) {
   const auto match = QRegularExpression("^title\\s*=\\s*\"([^\"]*)\"", QRegularExpression::MultilineOption)
                          .match(QString::fromUtf8(in.read(4000)));
   return match.captured(1);
+}
+
+/// In two lines, as long as they take it.
+QString inTwoLines(const QString& text, const QFontMetrics& letters, int width) {
+  if (letters.horizontalAdvance(text) <= width) return text + "\n";
+  int split = 0;
+  for (int at = text.indexOf(' '); at >= 0; at = text.indexOf(' ', at + 1))
+    if (letters.horizontalAdvance(text.left(at)) <= width) split = at;
+  if (split == 0) return letters.elidedText(text, Qt::ElideRight, width) + "\n";
+  return text.left(split) + "\n" + letters.elidedText(text.mid(split + 1), Qt::ElideRight, width);
 }
 
 QString samplesFolder() {
@@ -84,7 +94,7 @@ StartPage::StartPage(QWidget* parent) : QScrollArea(parent) {
     }
     card->setIconSize({pictureWidth, pictureHeight});
     card->setIcon(picture.scaled(pictureWidth, pictureHeight, Qt::KeepAspectRatio, Qt::SmoothTransformation));
-    card->setText(fontMetrics().elidedText(sample.title, Qt::ElideRight, pictureWidth));
+    card->setText(inTwoLines(sample.title, fontMetrics(), pictureWidth));
     card->setToolTip(sample.title);
     card->setFixedWidth(cardWidth);
     connect(card, &QToolButton::clicked, this, [this, file = sample.file] { Q_EMIT sampleChosen(file); });
