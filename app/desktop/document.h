@@ -26,6 +26,7 @@ struct Document {
   bool grainBeside = false;          ///< in the right half of the picture
   Document* beside = nullptr;        ///< another tab, whose run is the right half of the picture
   FramePtr shownBeside;              ///< of it
+  bool columnsOffered = false;       ///< the dialog for its columns was there once
   QUndoStack undo;
 };
 

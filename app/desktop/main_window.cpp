@@ -237,8 +237,7 @@ void MainWindow::connectDrawing() {
             charts_.at(panel)->setImage(image, place);
           });
   connect(drawing_.get(), &DrawingThread::picked, this, &MainWindow::onPicked);
-  connect(drawing_.get(), &DrawingThread::failed, this,
-          [this](const QString& sentence) { complain({sentence}); });
+  connect(drawing_.get(), &DrawingThread::failed, this, &MainWindow::onDrawingFailed);
   connect(drawing_.get(), &DrawingThread::started, this,
           [this](const QString& backend) { say(LogLevel::info, "Pictures by " + backend + "."); });
   connect(drawing_.get(), &DrawingThread::saved, this, [this](const QString& file, const QString& fault) {

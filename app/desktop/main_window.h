@@ -145,6 +145,13 @@ private:
   void openPoint(int point);
   void saveSweepTable(const QString& file);
 
+  // Columns of other programs' files (window_import.cpp).
+  void chooseColumns();
+  void mapColumns(const QString& path, const QString& reason);
+  void onOpenFailed(const QStringList& sentences);
+  void onDrawingFailed(const QString& sentence);
+  void offerColumns();
+
   // What commands do (window_actions.cpp).
   void say(LogLevel level, const QString& text);
   void complain(const QStringList& sentences);
@@ -222,6 +229,7 @@ private:
   double textScale_ = 1;
   int picturesSince_ = 0;
   int sweepReading_ = 0; ///< runs of a sweep that are being read
+  int surveys_ = 0;      ///< files whose columns are being listed
   QElapsedTimer sincePictures_;
   QTimer curveTimer_;
 };

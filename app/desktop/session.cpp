@@ -17,6 +17,7 @@ Session::~Session() {
 }
 
 void Session::open(const QString& path) {
+  asked_ = path;
   openBy([path, import = options_.import] { return openAny(path.toStdString(), import); });
 }
 

@@ -32,6 +32,9 @@ public:
 
   void open(const QString& path); ///< opened() or openFailed() follows
   const Opened& current() const { return current_; }
+  QString asked() const { return asked_; } ///< the path that open() had last
+  /// Files of other programs are read with what lies beside them from now on.
+  void forgetImport() { options_.import.reset(); }
   bool isOpening() const { return opened_ != opening_; }
   bool isOpen() const { return !current_.path.empty(); }
 
@@ -77,6 +80,7 @@ private:
   void retire();
 
   SessionOptions options_;
+  QString asked_;
   Opened current_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<std::unique_ptr<Simulation>> retired_; ///< stopping; nobody listens any more

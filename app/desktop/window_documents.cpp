@@ -57,7 +57,7 @@ void MainWindow::connectSession(Document* d) {
   Session* s = d->session.get();
   const auto here = [this, d] { return now_ == d; };
   connect(s, &Session::opened, this, [this, d] { onOpened(d); });
-  connect(s, &Session::openFailed, this, &MainWindow::complain);
+  connect(s, &Session::openFailed, this, &MainWindow::onOpenFailed);
   connect(s, &Session::stateChanged, this, [this, here] {
     if (here()) onState();
     drawing_->setSimulationRuns(std::any_of(documents_.begin(), documents_.end(), [](const auto& other) {
@@ -167,6 +167,7 @@ void MainWindow::onOpened(Document* document) {
   document->chosen.reset();
   document->grain = -1;
   document->grainBeside = false;
+  document->columnsOffered = false;
   document->undo.clear();
   document->sceneText = current.sceneText;
   document->view.camera.preset = "fit";

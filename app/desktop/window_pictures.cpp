@@ -78,6 +78,7 @@ void MainWindow::onPicture() {
   if (!other) return;
   const Frame& frame = *now_->shown;
   viewPanel_->setFrame(frame);
+  offerColumns();
   run_->setFrame(frame);
   accuracy_->setFrame(frame);
   time_->setTime(QString("t = %1 s    %L2 grains").arg(frame.time, 0, 'f', 4).arg(frame.size()));
@@ -157,7 +158,8 @@ void MainWindow::refreshCurves() {
 bool MainWindow::isSettled() const {
   return !session_->isOpening() && drawn_ == ordered_ &&
          std::all_of(charts_.begin(), charts_.end(), [](const auto& c) { return c.second->isCurrent(); }) &&
-         analyses_->isIdle() && scene_->isSettled() && inspector_->isSettled() && sweepReading_ == 0;
+         analyses_->isIdle() && scene_->isSettled() && inspector_->isSettled() && sweepReading_ == 0 &&
+         surveys_ == 0;
 }
 
 void MainWindow::onPicked(qint64 grain, int half) {
