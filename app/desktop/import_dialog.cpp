@@ -64,7 +64,7 @@ ImportDialog::ImportDialog(const QString& path, const ForeignFacts& facts, const
   setObjectName("importDialog");
   setAttribute(Qt::WA_DeleteOnClose);
   setWindowTitle("Columns of " + QFileInfo(path).fileName());
-  resize(860, 720);
+  resize(860, 700);
   pool_.setMaxThreadCount(1);
   const ImportChoices now = choicesOf(settings, facts);
   auto* column = new QVBoxLayout(this);
@@ -184,6 +184,8 @@ QComboBox* ImportDialog::unit(const char* name, const QString& now, const QStrin
 
 QFormLayout* ImportDialog::buildUnits(const ImportChoices& now) {
   auto* form = new QFormLayout;
+  form->setVerticalSpacing(6);
+  form->setHorizontalSpacing(10);
   form->addRow(heading("Units of the numbers in the file"));
   form->addRow("Length",
                length_ = unit("importLength", now.length, {"m", "cm", "mm", "um"}, "Unit of lengths"));
@@ -197,6 +199,7 @@ QFormLayout* ImportDialog::buildUnits(const ImportChoices& now) {
   walls_ = line("importWalls", now.walls.join("; "), "STL, VTP or a scene; several with ;",
                 "Files of walls that stand beside the grains");
   auto* row = new QHBoxLayout;
+  row->setSpacing(6);
   auto* add = new QPushButton("Add...");
   add->setObjectName("importAddWall");
   add->setAutoDefault(false);
@@ -215,6 +218,8 @@ QFormLayout* ImportDialog::buildUnits(const ImportChoices& now) {
 
 QFormLayout* ImportDialog::buildSpace(const ImportChoices& now) {
   auto* form = new QFormLayout;
+  form->setVerticalSpacing(6);
+  form->setHorizontalSpacing(10);
   form->addRow(heading("Sizes, where the file has none"));
   form->addRow("Radius",
                radius_ = line("importRadius", now.radius, "such as 1.5 mm", "Radius of all grains"));
