@@ -11,6 +11,14 @@
 
 namespace sandglass {
 
+/// Where in the ring an output stands and whether the grain is the pair's first: times the stride, and
+/// without its last three bits, an offset in bytes; those bits are an index into ringSigns.
+constexpr std::int32_t ringEntry(std::int64_t place, bool first) {
+  return static_cast<std::int32_t>(place << 3 | (first ? 4 : 0));
+}
+/// Eight factors from the index on: forces change sign for the second grain of a pair, torques do not.
+alignas(64) inline constexpr double ringSigns[12] = {-1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1};
+
 /// What the loop sees of grains and pairs. Records are `quads` times four doubles: x y z radius, velocity and
 /// 1/mass, radius times spin and 1/radius (GrainStore). Pairs, histories, outputs, slots: PairList.
 struct ParticleView {
@@ -31,7 +39,7 @@ struct ParticleView {
   int historySize = 0;
   int outputQuads = 1;  ///< force; with friction also torque over radius; with rolling also a couple
   int outputStride = 4; ///< doubles a pair: four a quad, or two where quads are of floats (mixed precision)
-  const std::int32_t* places = nullptr; ///< eight a grain: (place in the ring << 1 | side)
+  const std::int32_t* places = nullptr; ///< eight a grain, as ringEntry() packs them
   bool readsSpin = false, radiusArm = false;
   unsigned reads = 0;                       ///< LawColumns
   double oneRadius = 0, oneInverseMass = 0; ///< of all grains; 0 where they differ
@@ -50,7 +58,7 @@ using PairColumns = PairColumnsOf<double>;
 
 struct GroupSums {
   static constexpr int capacity = 32;
-  alignas(64) double at[capacity][12]; ///< force, torque over radius, couple: four doubles each
+  alignas(64) double at[capacity][16]; ///< force, torque over radius, couple: four doubles each; a gap
 };
 
 /// Greatest components met, for lists and for the watch on speeds.

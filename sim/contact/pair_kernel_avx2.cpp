@@ -66,21 +66,19 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
 }
 
 void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  alignas(32) static const std::uint64_t signs[2][4] = {{0, 0, 0, 0},
-                                                        {1ull << 63, 1ull << 63, 1ull << 63, 1ull << 63}};
   const std::int64_t stride = 4 * v.outputQuads;
   const std::int32_t* slot = v.places + first * 8;
   for (int i = 0; i < count; ++i, slot += 8) {
     __m256d force = _mm256_setzero_pd(), torque = force, couple = force;
     for (int k = 0; k < 8; ++k) {
       const std::int64_t entry = slot[k];
-      const double* out = ring + (entry >> 1) * stride;
-      const __m256d sign = _mm256_load_pd(reinterpret_cast<const double*>(signs[entry & 1]));
-      force = _mm256_add_pd(force, _mm256_xor_pd(_mm256_load_pd(out), sign));
+      const double* out = ring + (entry >> 3) * stride;
+      const __m256d sign = _mm256_load_pd(ringSigns + (entry & 7));
+      force = _mm256_fmadd_pd(sign, _mm256_load_pd(out), force);
       if (stride < 8) continue;
       torque = _mm256_add_pd(torque, _mm256_load_pd(out + 4));
       if (stride < 12) continue;
-      couple = _mm256_add_pd(couple, _mm256_xor_pd(_mm256_load_pd(out + 8), sign));
+      couple = _mm256_fmadd_pd(sign, _mm256_load_pd(out + 8), couple);
     }
     _mm256_store_pd(s.at[i], force);
     _mm256_store_pd(s.at[i] + 4, torque);

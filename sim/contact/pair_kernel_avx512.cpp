@@ -95,32 +95,26 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
     writeOutputs<3>(b, p, output);
 }
 
-alignas(64) constexpr std::uint64_t signs[2][8] = {
-    {0, 0, 0, 0, 0, 0, 0, 0}, {1ull << 63, 1ull << 63, 1ull << 63, 1ull << 63, 0, 0, 0, 0}};
-
 template <int quads>
 inline void sums(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
   const std::int32_t* slot = v.places + first * 8;
   const char* outputs = reinterpret_cast<const char*>(ring);
   for (int i = 0; i < count; ++i, slot += 8) {
-    __m512d total = _mm512_setzero_pd(); // force and torque
-    __m256d couple = _mm256_setzero_pd();
+    __m512d both = _mm512_setzero_pd(); // force and torque
+    __m256d force = _mm256_setzero_pd(), couple = force;
     for (int k = 0; k < 8; ++k) {
-      const std::uint64_t entry = static_cast<std::uint32_t>(slot[k]); // place in the upper bits, side below
-      const auto* out = reinterpret_cast<const double*>(outputs + (entry & ~1ull) * (16 * quads));
-      const std::uint64_t* sign = signs[entry & 1];
+      const auto entry = static_cast<std::uint32_t>(slot[k]);
+      const auto* out = reinterpret_cast<const double*>(outputs + std::uint64_t{entry & ~7u} * (4 * quads));
+      const double* sign = ringSigns + (entry & 7u);
       if constexpr (quads == 1)
-        total += _mm512_zextpd256_pd512(
-            _mm256_xor_pd(_mm256_load_pd(out),
-                          _mm256_castsi256_pd(_mm256_load_si256(reinterpret_cast<const __m256i*>(sign)))));
+        force = _mm256_fmadd_pd(_mm256_load_pd(sign), _mm256_load_pd(out), force);
       else
-        total += _mm512_xor_pd(_mm512_loadu_pd(out), _mm512_castsi512_pd(_mm512_load_si512(sign)));
+        both = _mm512_fmadd_pd(_mm512_loadu_pd(sign), _mm512_loadu_pd(out), both);
       if constexpr (quads == 3)
-        couple +=
-            _mm256_xor_pd(_mm256_load_pd(out + 8),
-                          _mm256_castsi256_pd(_mm256_load_si256(reinterpret_cast<const __m256i*>(sign))));
+        couple = _mm256_fmadd_pd(_mm256_load_pd(sign), _mm256_load_pd(out + 8), couple);
     }
-    _mm512_storeu_pd(s.at[i], total);
+    if constexpr (quads == 1) both = _mm512_zextpd256_pd512(force);
+    _mm512_storeu_pd(s.at[i], both);
     if constexpr (quads == 3) _mm256_store_pd(s.at[i] + 8, couple);
   }
 }
@@ -134,10 +128,42 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
     sums<3>(v, first, count, ring, s);
 }
 
+/// As move(), velocity and roll of a record in one register.
+void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+              const double* gravity, double speedLimit, Speeds& speeds) {
+  if (v.outputQuads != 2) return move(v, first, count, s, dt, gravity, speedLimit, speeds);
+  const __m512d share = _mm512_set_pd(0, 2.5, 2.5, 2.5, 0, 1, 1, 1);
+  const __m512d pull = _mm512_set_pd(0, 0, 0, 0, 0, dt * gravity[2], dt * gravity[1], dt * gravity[0]);
+  const __m512d size = _mm512_castsi512_pd(_mm512_set1_epi64(static_cast<std::int64_t>(~(1ull << 63))));
+  const __m256d step = _mm256_set_pd(0, dt, dt, dt), limit = _mm256_set1_pd(speedLimit);
+  const __m512d time = _mm512_set1_pd(dt);
+  __m256d most = _mm256_set_pd(0, speeds.z, speeds.y, speeds.x);
+  __mmask8 fine = 7;
+  double* r = v.records + first * 12;
+  for (int i = 0; i < count; ++i, r += 12) {
+    const __m512d kick = time * _mm512_set1_pd(r[7]) * share;
+    __m512d change = kick * _mm512_load_pd(s.at[i]);
+    change = _mm512_mask_add_pd(change, 7, change, pull);
+    const __m512d motion = _mm512_loadu_pd(r + 4) + change;
+    _mm512_storeu_pd(r + 4, motion);
+    const __m256d velocity = _mm512_castpd512_pd256(motion);
+    _mm256_store_pd(r, _mm256_add_pd(_mm256_load_pd(r), _mm256_mul_pd(step, velocity)));
+    const __m256d speed = _mm256_and_pd(velocity, _mm512_castpd512_pd256(size));
+    most = _mm256_mask_max_pd(most, 7, speed, most);
+    fine = _mm256_mask_cmp_pd_mask(fine, speed, limit, _CMP_LT_OQ);
+  }
+  alignas(32) double m[4];
+  _mm256_store_pd(m, most);
+  speeds.x = m[0];
+  speeds.y = m[1];
+  speeds.z = m[2];
+  speeds.bad = speeds.bad || fine != 7;
+}
+
 } // namespace
 
 const Kernel& avx512Kernel() {
-  static const Kernel kernel{fill, write, sum, move};
+  static const Kernel kernel{fill, write, sum, moveBoth};
   return kernel;
 }
 

@@ -14,7 +14,6 @@ namespace sandglass {
 namespace {
 
 constexpr std::int64_t grainsPerPiece = 2048;
-constexpr std::int64_t grainsPerChunk = 4096, mostChunks = 16;
 constexpr std::int64_t groupsPerBlock = 8, mostBlocks = 64; ///< least and most
 
 /// Three small signed counters in one integer that orders like the tuple.
@@ -25,6 +24,19 @@ std::int64_t packImage(const std::array<std::int64_t, 3>& n) {
 
 std::int64_t padded(std::int64_t n) {
   return (n + PairList::lane - 1) / PairList::lane * PairList::lane;
+}
+
+/// Pairs between chunks cost twice: chunks of a cube of grains are five layers thick or more.
+std::int64_t chunksOf(std::int64_t grains) {
+  constexpr std::int64_t layers = 5, fewest = 4096, most = 16;
+  const auto fits = [&](std::int64_t chunks) {
+    const std::int64_t edge = layers * chunks;
+    return chunks <= most && edge * edge * edge <= grains;
+  };
+  std::int64_t chunks = 1;
+  while (grains >= fewest && fits(2 * chunks))
+    chunks *= 2;
+  return chunks;
 }
 
 /// Room for n values that will all be written: old values are not copied into larger memory.
@@ -123,8 +135,7 @@ void PairList::fillColumns(GrainStore& grains, double range, Parallel& parallel,
 /// Chunks and blocks of whole groups.
 void PairList::cut(std::int64_t grains) {
   const std::int64_t groups = now_.groups();
-  const std::int64_t chunks = static_cast<std::int64_t>(std::bit_floor(
-      static_cast<std::uint64_t>(std::clamp<std::int64_t>(grains / grainsPerChunk, 1, mostChunks))));
+  const std::int64_t chunks = chunksOf(grains);
   const auto firstGrain = [&](std::int64_t g) { return std::min(g * group, grains); };
   chunkGrains_.clear();
   std::size_t used = 0;
@@ -324,35 +335,34 @@ void PairList::findPlaces(Parallel& parallel) {
   constexpr std::int64_t block = 64; // may be written as a whole before its first pair is needed
   window_ = static_cast<std::int64_t>(
       std::bit_ceil(static_cast<std::uint64_t>(*std::max_element(windows.begin(), windows.end()) + block)));
-  const auto empty = static_cast<std::int32_t>(window_ << 1);
+  const std::int32_t empty = ringEntry(window_, true);
   makeRoom(places_, n * slotCount);
-  std::vector<std::vector<Extra>> further(chunkCount);
+  std::vector<std::vector<Extra>> lent(chunkCount);
   parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t c = first; c < last; ++c) {
       const auto [begin, end] = chunkGrains_[c];
       const std::int64_t ringBegin = chunkPairs_[c].begin, mask = window_ - 1;
+      std::int64_t atLent = 0;
       for (std::int64_t i = begin; i < end; ++i) {
         const std::int32_t* slots = now_.slots.data() + i * slotCount;
         std::int32_t* places = places_.data() + i * slotCount;
-        int filled = 0;
+        if (i % group == 0) atLent = window_ + 1;
         for (int k = 0; k < slotCount; ++k) {
           const std::int64_t pair = slots[k] >> 1;
-          if (pair == now_.entries) break;
-          if (pair >= ringBegin)
-            places[filled++] = static_cast<std::int32_t>(((pair - ringBegin) & mask) << 1 | (slots[k] & 1));
-          else
-            further[c].push_back({static_cast<std::int32_t>(i), slots[k]});
+          const bool first = !(slots[k] & 1);
+          if (pair == now_.entries) {
+            places[k] = empty;
+          } else if (pair >= ringBegin) {
+            places[k] = ringEntry((pair - ringBegin) & mask, first);
+          } else {
+            places[k] = ringEntry(atLent++, first);
+            lent[c].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(pair)});
+          }
         }
-        std::fill(places + filled, places + slotCount, empty);
       }
-      const std::size_t shared = further[c].size();
-      for (std::int64_t g = begin / group; g * group < end; ++g)
-        further[c].insert(further[c].end(), now_.extras.begin() + now_.groupExtras[g],
-                          now_.extras.begin() + now_.groupExtras[g + 1]);
-      if (further[c].size() > shared) std::stable_sort(further[c].begin(), further[c].end(), byGrain);
     }
   });
-  gather(further, now_.groups(), further_, groupFurther_);
+  gather(lent, now_.groups(), lent_, groupLent_);
 }
 
 std::array<int, 3> PairList::image(std::int64_t p) const {
@@ -373,8 +383,8 @@ std::size_t PairList::bytes() const {
   std::size_t total = now_.bytes() + past_.bytes() + memory_.capacity() * sizeof(Quad) +
                       groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() +
                       rowLength_.capacity() * sizeof(std::int32_t) + filled_.capacity() +
-                      places_.capacity() * sizeof(std::int32_t) + further_.capacity() * sizeof(Extra) +
-                      groupFurther_.capacity() * sizeof(std::int32_t);
+                      places_.capacity() * sizeof(std::int32_t) + lent_.capacity() * sizeof(Extra) +
+                      groupLent_.capacity() * sizeof(std::int32_t);
   for (const Block& block : blocks_)
     total += block.rows.bytes();
   return total;

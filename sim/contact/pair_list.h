@@ -8,7 +8,8 @@
 // reads its old state. Rows are cut into chunks of grains for threads; pairs between two chunks stand in a
 // section of their own that is evaluated first. Sections start at multiples of `lane` and are padded with
 // pairs of two phantom grains (storage indices grains.size() and grains.size() + 1) that never touch.
-// The cutting depends on the number of grains alone, never on the number of threads.
+// The cutting depends on the number of grains alone, never on the number of threads: a power of two up to
+// 16, so few that chunks of a cube of grains would be five layers thick, and one below 4096 grains.
 
 #include "sim/base/parallel.h"
 #include "sim/contact/cell_grid.h"
@@ -35,7 +36,7 @@ public:
 
   /// Storage indices a and b; a has the smaller id (or is its own image).
   using Pair = PairListing::Pair;
-  /// A contact of a grain beyond its slots.
+  /// A contact of a grain beyond its slots, or one with another chunk.
   using Extra = PairListing::Extra;
   struct Range {
     std::int64_t begin = 0, end = 0;
@@ -83,14 +84,15 @@ public:
   // Per grain: what its contacts give. Outputs of a chunk's own pairs stand in a ring while the chunk is
   // swept from its first pair on, blocks of 64 pairs at a time: pair p at (p - chunkPairs(c).begin) modulo
   // window(). It is no longer than outputs are needed, so that it stays in the cache.
-  /// A power of two, not below 64; a zero output belongs at this place of the ring.
+  /// A power of two, not below 64. Behind the ring belong a zero output and those lent to the present group.
   std::int64_t window() const { return window_; }
-  /// slotCount per grain: (place in the ring << 1 | 1 when the grain is b); empty ones: window() << 1.
+  std::int64_t ringSize() const { return window_ + 1 + group * slotCount; } ///< [outputs]
+  /// slotCount per grain, made by ringEntry(); places of empty ones: window().
   const std::int32_t* places() const { return places_.data(); }
-  /// Further contacts of the grains of a group, ordered by grain, and all those with other chunks. Entries
-  /// are (pair << 1 | 1 when the grain is b). g = index / group.
-  const std::vector<Extra>& further() const { return further_; }
-  Range groupFurther(std::int64_t g) const { return {groupFurther_[g], groupFurther_[g + 1]}; }
+  /// Outputs of pairs between chunks that the slots of a group's grains ask for: the k-th belongs at place
+  /// window() + 1 + k. Extra::entry is the pair. g = index / group.
+  const std::vector<Extra>& lent() const { return lent_; }
+  Range groupLent(std::int64_t g) const { return {groupLent_[g], groupLent_[g + 1]}; }
   /// Where a pair's output stands during the sweep of chunk c.
   const double* outputOf(std::int64_t pair, int c, const double* ring) const {
     const std::int64_t mine = pair - chunkPairs_[c].begin;
@@ -153,8 +155,8 @@ private:
   AlignedVector<Quad> memory_; ///< outputs of crossing pairs; during a build for anybody
   std::int64_t window_ = 64;
   std::vector<std::int32_t> places_;
-  std::vector<Extra> further_;
-  std::vector<std::int32_t> groupFurther_;
+  std::vector<Extra> lent_;
+  std::vector<std::int32_t> groupLent_;
   Range crossing_;
   std::vector<Range> chunkGrains_, chunkPairs_,
       chunkCrossing_; ///< the last: crossing rows of a chunk's grains

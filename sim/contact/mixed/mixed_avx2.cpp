@@ -134,9 +134,9 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
     __m256d force = _mm256_setzero_pd(), torque = force;
     for (int k = 0; k < 8; ++k) {
       const std::int64_t entry = slot[k];
-      const auto* out = reinterpret_cast<const float*>(ring + (entry >> 1) * v.outputStride);
-      const __m128 sign = _mm_castsi128_ps(_mm_set1_epi32(static_cast<int>((entry & 1) << 31)));
-      force = _mm256_add_pd(force, _mm256_cvtps_pd(_mm_xor_ps(_mm_load_ps(out), sign)));
+      const auto* out = reinterpret_cast<const float*>(ring + (entry >> 3) * v.outputStride);
+      force =
+          _mm256_fmadd_pd(_mm256_cvtps_pd(_mm_load_ps(out)), _mm256_load_pd(ringSigns + (entry & 7)), force);
       if (v.outputQuads > 1) torque = _mm256_add_pd(torque, _mm256_cvtps_pd(_mm_load_ps(out + 4)));
     }
     _mm256_store_pd(s.at[i], force);

@@ -176,18 +176,17 @@ template <class A> struct Width512 {
 };
 
 void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  alignas(32) static const std::uint32_t signs[2][8] = {{}, {1u << 31, 1u << 31, 1u << 31, 1u << 31}};
   const std::int32_t* slot = v.places + first * 8;
   const auto* outputs = reinterpret_cast<const char*>(ring);
   const bool turning = v.outputQuads > 1;
   for (int i = 0; i < count; ++i, slot += 8) {
     __m512d total = _mm512_setzero_pd(); // force and torque
     for (int k = 0; k < 8; ++k) {
-      const std::uint64_t entry = static_cast<std::uint32_t>(slot[k]); // place in the upper bits, side below
-      const auto* out = reinterpret_cast<const float*>(outputs + (entry & ~1ull) * (turning ? 16 : 8));
-      const __m256 sign = _mm256_load_ps(reinterpret_cast<const float*>(signs[entry & 1]));
+      const auto entry = static_cast<std::uint32_t>(slot[k]);
+      const auto* out =
+          reinterpret_cast<const float*>(outputs + std::uint64_t{entry & ~7u} * (turning ? 4 : 2));
       const __m256 numbers = turning ? _mm256_load_ps(out) : _mm256_zextps128_ps256(_mm_load_ps(out));
-      total += _mm512_cvtps_pd(_mm256_xor_ps(numbers, sign));
+      total = _mm512_fmadd_pd(_mm512_loadu_pd(ringSigns + (entry & 7u)), _mm512_cvtps_pd(numbers), total);
     }
     _mm512_storeu_pd(s.at[i], total);
   }

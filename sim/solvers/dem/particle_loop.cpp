@@ -30,22 +30,27 @@ void ParticleLoop::bind() {
     allowed_[g] = grains_.listed[g * group].w;
 }
 
-void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, const double* ring,
+void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, double* ring,
                             GroupSums& sums) const {
   const std::int64_t first = g * group;
   const ParticleView& view = pairs_.view();
+  const std::int64_t stride = list_.outputStride();
+  const PairList::Range lent = list_.groupLent(g);
+  double* to = ring + (list_.window() + 1) * stride;
+  for (std::int64_t e = lent.begin; e < lent.end; ++e, to += stride)
+    std::copy_n(list_.crossingOutput() + list_.lent()[e].entry * stride, stride, to);
   pairs_.kernel().sum(view, first, static_cast<int>(last - first), ring, sums);
-  const PairList::Range further = list_.groupFurther(g);
-  for (std::int64_t e = further.begin; e < further.end; ++e) {
-    const PairList::Extra& extra = list_.further()[e];
-    double* to = sums.at[extra.grain - first];
+  const PairList::Range extras = list_.groupExtras(g);
+  for (std::int64_t e = extras.begin; e < extras.end; ++e) {
+    const PairList::Extra& extra = list_.extras()[e];
+    double* sum = sums.at[extra.grain - first];
     const double* out = list_.outputOf(extra.entry >> 1, chunk, ring);
     const double sign = extra.entry & 1 ? -1.0 : 1.0;
     const auto add = [&](const auto* numbers) {
       for (int q = 0; q < view.outputQuads; ++q) {
         const double factor = q == 1 ? 1.0 : sign;
         for (int k = 0; k < 4; ++k) // one register; the last is zero
-          to[4 * q + k] += factor * numbers[4 * q + k];
+          sum[4 * q + k] += factor * numbers[4 * q + k];
       }
     };
     view.mixed ? add(reinterpret_cast<const float*>(out)) : add(out);
@@ -58,9 +63,9 @@ template <class Done>
 void ParticleLoop::sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done) {
   const PairList::Range grains = list_.chunkGrains(chunk), pairs = list_.chunkPairs(chunk);
   const std::int64_t stride = list_.outputStride(), mask = list_.window() - 1;
-  const auto zero = static_cast<std::size_t>(list_.window() * stride);
-  if (scratch.ring.size() < zero + stride) scratch.ring.resize(zero + stride);
-  std::fill_n(scratch.ring.begin() + zero, stride, 0.0);
+  const auto size = static_cast<std::size_t>(list_.ringSize() * stride);
+  if (scratch.ring.size() < size) scratch.ring.resize(size);
+  std::fill_n(scratch.ring.begin() + list_.window() * stride, stride, 0.0);
   std::int64_t next = pairs.begin;
   for (std::int64_t first = grains.begin; first < grains.end; first += group) {
     const std::int64_t g = first / group;
@@ -103,20 +108,19 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
     GroupSums sums;
     bool tired = false, wrong = false;
     for (std::int64_t c = firstChunk; c < lastChunk; ++c)
-      sweep(static_cast<int>(c), dt, false, scratch,
-            [&](std::int64_t g, std::int64_t last, const double* ring) {
-              sumGroup(static_cast<int>(c), g, last, ring, sums);
-              if (!watched_.empty()) keepWatched(g * group, last, sums);
-              if (fields_.any())
-                fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, true);
-              Speeds speeds;
-              kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt,
-                          gravity.data(), speedLimit, speeds);
-              if (kernel.narrow) kernel.narrow(pairs_.view(), g * group, static_cast<int>(last - g * group));
-              moved_[g] += dt * std::sqrt(speeds.x * speeds.x + speeds.y * speeds.y + speeds.z * speeds.z);
-              tired = tired || moved_[g] > allowed_[g];
-              wrong = wrong || speeds.bad;
-            });
+      sweep(static_cast<int>(c), dt, false, scratch, [&](std::int64_t g, std::int64_t last, double* ring) {
+        sumGroup(static_cast<int>(c), g, last, ring, sums);
+        if (!watched_.empty()) keepWatched(g * group, last, sums);
+        if (fields_.any())
+          fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, true);
+        Speeds speeds;
+        kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt, gravity.data(),
+                    speedLimit, speeds);
+        if (kernel.narrow) kernel.narrow(pairs_.view(), g * group, static_cast<int>(last - g * group));
+        moved_[g] += dt * std::sqrt(speeds.x * speeds.x + speeds.y * speeds.y + speeds.z * speeds.z);
+        tired = tired || moved_[g] > allowed_[g];
+        wrong = wrong || speeds.bad;
+      });
     if (tired) late = true;
     if (wrong) bad = true;
     const std::lock_guard lock(merge);
@@ -160,21 +164,20 @@ void ParticleLoop::forces(double dt, const Vec3& gravity, std::vector<Quad>& for
     PairForces::Scratch& scratch = scratchOfThread();
     GroupSums sums;
     for (std::int64_t c = firstChunk; c < lastChunk; ++c)
-      sweep(static_cast<int>(c), dt, true, scratch,
-            [&](std::int64_t g, std::int64_t last, const double* ring) {
-              sumGroup(static_cast<int>(c), g, last, ring, sums);
-              if (fields_.any())
-                fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, false);
-              for (std::int64_t i = g * group; i < last; ++i) {
-                const double* s = sums.at[i - g * group];
-                force[i] = {s[0], s[1], s[2], 0.0};
-                if (!grains_.turning) continue;
-                const double r = grains_.place[i].w;
-                torque[i] = {r * s[4], r * s[5], r * s[6], 0.0};
-                if (pairs_.view().outputQuads > 2)
-                  torque[i] = {r * s[4] + s[8], r * s[5] + s[9], r * s[6] + s[10], 0.0};
-              }
-            });
+      sweep(static_cast<int>(c), dt, true, scratch, [&](std::int64_t g, std::int64_t last, double* ring) {
+        sumGroup(static_cast<int>(c), g, last, ring, sums);
+        if (fields_.any())
+          fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, false);
+        for (std::int64_t i = g * group; i < last; ++i) {
+          const double* s = sums.at[i - g * group];
+          force[i] = {s[0], s[1], s[2], 0.0};
+          if (!grains_.turning) continue;
+          const double r = grains_.place[i].w;
+          torque[i] = {r * s[4], r * s[5], r * s[6], 0.0};
+          if (pairs_.view().outputQuads > 2)
+            torque[i] = {r * s[4] + s[8], r * s[5] + s[9], r * s[6] + s[10], 0.0};
+        }
+      });
   });
   if (list_.live()) list_.liveArray() = live;
 }

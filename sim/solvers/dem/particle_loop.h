@@ -51,7 +51,7 @@ public:
 
 private:
   void keepWatched(std::int64_t first, std::int64_t last, const GroupSums& sums);
-  void sumGroup(int chunk, std::int64_t group, std::int64_t last, const double* ring, GroupSums& sums) const;
+  void sumGroup(int chunk, std::int64_t group, std::int64_t last, double* ring, GroupSums& sums) const;
   template <class Done>
   void sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done);
   void crossing(double dt, bool keepHistory);

@@ -73,8 +73,8 @@ std::set<Key> keysOf(const PairList& list, const GrainStore& store) {
   return keys;
 }
 
-/// Sweeps the chunks as the particle loop does, with pair numbers for outputs: when a group of grains is done,
-/// its places in the ring and what is further must lead to all its contacts, and to nothing else.
+/// Sweeps the chunks as the particle loop does, with pair numbers for outputs: when a group of grains is
+/// done, its places in the ring and what is further must lead to all its contacts, and to nothing else.
 void sweep(const PairList& list, std::map<std::int64_t, std::vector<std::int32_t>>& expected) {
   bool right = true;
   const std::int64_t window = list.window(), block = 64;
@@ -97,11 +97,16 @@ void sweep(const PairList& list, std::map<std::int64_t, std::vector<std::int32_t
       for (std::int64_t i = first; i < last; ++i)
         for (int k = 0; k < PairList::slotCount; ++k) {
           const std::int32_t entry = list.places()[i * PairList::slotCount + k];
-          if (entry >> 1 == window) continue;
-          found[i].push_back(static_cast<std::int32_t>(ring[entry >> 1] << 1 | (entry & 1)));
+          const std::int64_t place = entry >> 3;
+          if (place == window) continue;
+          right = right && place < list.ringSize();
+          const std::int64_t lent = list.groupLent(g).begin + place - window - 1;
+          const std::int64_t p = place < window ? ring[place] : list.lent()[lent].entry;
+          right = right && (place < window || (lent < list.groupLent(g).end && p < list.crossing().end));
+          found[i].push_back(static_cast<std::int32_t>(p << 1 | (entry & 4 ? 0 : 1)));
         }
-      for (std::int64_t e = list.groupFurther(g).begin; e < list.groupFurther(g).end; ++e) {
-        const auto [grain, entry] = list.further()[e];
+      for (std::int64_t e = list.groupExtras(g).begin; e < list.groupExtras(g).end; ++e) {
+        const auto [grain, entry] = list.extras()[e];
         const std::int64_t p = entry >> 1;
         right = right && (p < list.crossing().end || ring[(p - begin) & (window - 1)] == p);
         found[grain].push_back(entry);
@@ -121,8 +126,9 @@ void checkLayout(PairList& list, const GrainStore& store) {
   REQUIRE(entries % PairList::lane == 0);
   REQUIRE(static_cast<std::int64_t>(list.pairs().size()) == entries);
   REQUIRE(list.shiftOf().size() == (list.periodic() ? list.pairs().size() : 0));
-  int chunks = 1; // the largest power of two up to n / 4096, at most 16
-  while (chunks < 16 && chunks * 2 <= n / 4096)
+  int chunks =
+      1; // from 4096 grains on the largest power of two that leaves a cube's chunks five layers, at most 16
+  while (n >= 4096 && chunks < 16 && std::pow(10.0 * chunks, 3) <= static_cast<double>(n))
     chunks *= 2;
   REQUIRE(list.chunks() == chunks);
 
