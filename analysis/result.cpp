@@ -1,5 +1,7 @@
 #include "analysis/result.h"
 
+#include "analysis/csv_cell.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -11,15 +13,6 @@ namespace {
 
 std::string axisText(const Axis& axis) {
   return axis.unit.empty() ? axis.name : fmt::format("{} [{}]", axis.name, axis.unit);
-}
-
-/// RFC 4180 quoting.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
 }
 
 std::string comment(const std::string& key, std::string value) {
@@ -51,14 +44,14 @@ std::string toCsv(const Curve& curve) {
     out += comment("mark " + mark.label, fmt::format("{}", mark.position));
   for (const auto& [key, value] : curve.provenance)
     out += comment("provenance " + key, value);
-  if (curve.series.empty()) return out + cell(axisText(curve.x)) + "," + cell(axisText(curve.y)) + "\n";
+  if (curve.series.empty()) return out + csvCell(axisText(curve.x)) + "," + csvCell(axisText(curve.y)) + "\n";
 
   if (sharesX(curve)) {
-    out += cell(axisText(curve.x));
+    out += csvCell(axisText(curve.x));
     for (const auto& s : curve.series) {
       const std::string name = s.name.empty() ? axisText(curve.y) : s.name;
-      out += "," + cell(name);
-      if (!s.error.empty()) out += "," + cell(name + " error");
+      out += "," + csvCell(name);
+      if (!s.error.empty()) out += "," + csvCell(name + " error");
     }
     out += "\n";
     for (std::size_t i = 0; i < curve.series.front().x.size(); ++i) {
@@ -71,10 +64,10 @@ std::string toCsv(const Curve& curve) {
     }
     return out;
   }
-  out += fmt::format("series,{},{},error\n", cell(axisText(curve.x)), cell(axisText(curve.y)));
+  out += fmt::format("series,{},{},error\n", csvCell(axisText(curve.x)), csvCell(axisText(curve.y)));
   for (const auto& s : curve.series)
     for (std::size_t i = 0; i < s.x.size(); ++i)
-      out += fmt::format("{},{},{},{}\n", cell(s.name), s.x[i], s.y[i],
+      out += fmt::format("{},{},{},{}\n", csvCell(s.name), s.x[i], s.y[i],
                          s.error.empty() ? "" : fmt::format("{}", s.error[i]));
   return out;
 }
@@ -100,12 +93,12 @@ std::string toCsv(const Table& table) {
   for (const auto& [key, value] : table.provenance)
     out += comment("provenance " + key, value);
   const bool named = !table.rowNames.empty();
-  if (named) out += cell(table.rowTitle);
+  if (named) out += csvCell(table.rowTitle);
   for (std::size_t c = 0; c < table.columns.size(); ++c)
-    out += (c || named ? "," : "") + cell(axisText(table.columns[c]));
+    out += (c || named ? "," : "") + csvCell(axisText(table.columns[c]));
   out += "\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    if (named) out += cell(table.rowNames.at(r));
+    if (named) out += csvCell(table.rowNames.at(r));
     for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
       if (c || named) out += ",";
       if (!std::isnan(table.rows[r][c])) out += fmt::format("{}", table.rows[r][c]);

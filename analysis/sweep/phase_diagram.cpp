@@ -1,6 +1,7 @@
 #include "analysis/sweep/phase_diagram.h"
 
-#include "analysis/vortex/vortex_rules.h"
+#include "analysis/statistics.h"
+#include "analysis/sweep/sweep_classes.h"
 #include "sim/base/error.h"
 
 #include <fmt/format.h>
@@ -9,12 +10,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace sandglass::analysis {
 
 namespace {
-
-constexpr const char* failedName = "failed";
 
 /// What the runs of one place of the plane say.
 struct Place {
@@ -28,22 +28,12 @@ struct Place {
   double spread = 0;                                       ///< standard deviation of the numbers
 };
 
-/// Vortex states in their order, others by the alphabet.
 std::vector<std::string> orderOfNames(const std::vector<Place>& places) {
-  std::vector<std::string> names;
+  std::set<std::string> names;
   for (const auto& p : places)
     for (const auto& [name, runs] : p.names)
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  std::sort(names.begin(), names.end());
-  std::vector<std::string> states;
-  for (int s = 0; s <= static_cast<int>(VortexState::largeSpout); ++s)
-    states.emplace_back(nameOf(static_cast<VortexState>(s)));
-  const bool areStates = std::all_of(names.begin(), names.end(), [&](const std::string& n) {
-    return n == failedName || std::find(states.begin(), states.end(), n) != states.end();
-  });
-  if (!areStates) return names;
-  if (std::find(names.begin(), names.end(), failedName) != names.end()) states.emplace_back(failedName);
-  return states; // all of them: each state has the same colour and symbol in every diagram
+      names.insert(name);
+  return orderOfClasses(names);
 }
 
 void judge(Place& place, bool names) {
@@ -54,15 +44,9 @@ void judge(Place& place, bool names) {
     place.agreement = static_cast<double>(most) / static_cast<double>(place.runs);
     return;
   }
-  const auto n = static_cast<double>(place.numbers.size());
-  if (n == 0) return;
-  double sum = 0, squares = 0;
-  for (const double v : place.numbers)
-    sum += v;
-  place.value = sum / n;
-  for (const double v : place.numbers)
-    squares += (v - place.value) * (v - place.value);
-  place.spread = n > 1 ? std::sqrt(squares / (n - 1)) : 0;
+  if (place.numbers.empty()) return;
+  place.value = mean(place.numbers);
+  place.spread = std::sqrt(variance(place.numbers));
 }
 
 Series scattered(std::string name) {
@@ -71,26 +55,18 @@ Series scattered(std::string name) {
   return series;
 }
 
-bool isRotation(const SweepColumn& column) {
-  return column.unit == "rad/s" || column.unit == "1/s";
-}
-
 Series lineOver(const SweepTable& table, const std::vector<const SweepRow*>& rows,
                 const DiagramOptions& options) {
   const std::size_t x = table.column(options.x), y = table.column(options.line);
-  std::map<double, std::pair<double, int>> sums;
+  std::map<double, std::vector<double>> values;
   for (const auto* row : rows)
-    if (!std::isnan(row->number(y))) {
-      auto& [sum, count] = sums[row->number(x)];
-      sum += row->number(y);
-      ++count;
-    }
+    if (!std::isnan(row->number(y))) values[row->number(x)].push_back(row->number(y));
   std::string name = options.line;
   std::replace(name.begin(), name.end(), '_', ' ');
   Series line{name, {}, {}, {}};
-  for (const auto& [at, sum] : sums) {
+  for (const auto& [at, found] : values) {
     line.x.push_back(at);
-    line.y.push_back(sum.first / sum.second);
+    line.y.push_back(mean(found));
   }
   return line;
 }
@@ -109,7 +85,7 @@ PhaseDiagram phaseDiagram(const SweepTable& table, const DiagramOptions& given) 
   if (options.line == "auto") {
     const bool known = std::any_of(columns.begin(), columns.end(),
                                    [](const SweepColumn& c) { return c.name == "critical_rotation"; });
-    options.line = known && isRotation(columns[y]) ? "critical_rotation" : "";
+    options.line = known && isRotation(columns[y].unit) ? "critical_rotation" : "";
   }
   const bool names = columns[colour].text;
 

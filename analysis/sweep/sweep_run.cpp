@@ -184,6 +184,7 @@ std::optional<SweepOutcome> runPoint(const SweepPlan& plan, const SweepPoint& po
     Collector collector(plan, scene);
     RunOptions options;
     options.threads = 1;
+    options.wallLoads = false;
     Run run(scene, options);
     run.onSavedFrame = [&](const FramePtr& frame) { collector.frame(frame); };
     run.onSample = [&](const ProbeSample& sample) { collector.sample(sample); };

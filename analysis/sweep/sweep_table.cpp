@@ -59,28 +59,10 @@ std::vector<SweepColumn> planColumns(const SweepPlan& plan) {
   return columns;
 }
 
-std::string cell(const SweepValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
-  const auto* text = std::get_if<std::string>(&value);
-  if (!text) return "";
-  if (text->find_first_of(",\"\n") == std::string::npos) return *text;
-  std::string inQuotes = "\"";
-  for (const char c : *text)
-    inQuotes += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return inQuotes + '"';
-}
-
 } // namespace
 
-double SweepRow::number(std::size_t column) const {
-  const auto* x = std::get_if<double>(&values.at(column));
-  return x ? *x : std::nan("");
-}
-
-std::string SweepRow::text(std::size_t column) const {
-  const SweepValue& v = values.at(column);
-  if (const auto* text = std::get_if<std::string>(&v)) return *text;
-  return cell(v);
+const char* nameOf(SweepStatus status) {
+  return statusNames[static_cast<int>(status)];
 }
 
 struct SweepTable::Impl {
@@ -367,7 +349,7 @@ void SweepTable::record(int run, const SweepOutcome& outcome) {
   }
   Statement update(impl_->database,
                    fmt::format("UPDATE runs SET status = ?, fault = ?{} WHERE id = ?", changes));
-  update.bind(1, std::string(statusNames[static_cast<int>(outcome.status)])).bind(2, outcome.fault);
+  update.bind(1, std::string(nameOf(outcome.status))).bind(2, outcome.fault);
   int place = 3;
   for (const auto& [column, value] : outcome.results)
     update.bind(place++, value);
@@ -400,57 +382,21 @@ void SweepTable::record(int run, const SweepOutcome& outcome) {
   transaction.commit();
 }
 
-std::size_t SweepTable::merge(const SweepTable& other) {
-  if (other.info("sweep") != info("sweep") || other.info("scene") != info("scene"))
-    throw InputError(fmt::format("{}: this table is of another sweep than {}",
-                                 other.impl_->database.file().string(), impl_->database.file().string()));
-  std::size_t taken = 0;
-  const auto theirs = other.rows();
-  const auto ours = rows();
-  for (const auto& row : theirs) {
-    const auto index = static_cast<std::size_t>(row.run) - 1;
-    if (row.status == SweepStatus::waiting || index >= ours.size() ||
-        ours[index].status != SweepStatus::waiting)
-      continue;
-    SweepOutcome outcome;
-    outcome.status = row.status;
-    outcome.fault = row.fault;
-    for (std::size_t c = other.impl_->ofPoints; c < other.columns().size(); ++c)
-      outcome.results.emplace_back(other.columns()[c], row.values[c]);
-    outcome.curves = other.curves(row.run);
-    outcome.last = other.lastFrame(row.run);
-    outcome.seconds = other.seconds(row.run);
-    record(row.run, outcome);
-    ++taken;
+std::uint64_t SweepTable::blobHash(int run) const {
+  Statement s(impl_->database,
+              "SELECT data FROM curves WHERE run = ?1 UNION ALL SELECT data FROM last_frames "
+              "WHERE run = ?1");
+  s.bind(1, static_cast<std::int64_t>(run));
+  XXH64_hash_t hash = 0;
+  while (s.step()) {
+    const auto bytes = s.bytes(0);
+    hash = XXH3_64bits_withSeed(bytes.data(), bytes.size(), hash);
   }
-  return taken;
+  return hash;
 }
 
-std::string SweepTable::csv(bool withBlobs) const {
-  std::string text = "run,point,replicate,level,seed,status,fault";
-  for (const auto& column : impl_->columns)
-    text += "," + cell(column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit));
-  text += withBlobs ? ",blobs\n" : "\n";
-  for (const auto& row : rows()) {
-    text += fmt::format("{},{},{},{},{},{},{}", row.run, row.point, row.replicate, row.level, row.seed,
-                        statusNames[static_cast<int>(row.status)], cell(row.fault));
-    for (const auto& value : row.values)
-      text += "," + cell(value);
-    if (withBlobs) {
-      Statement s(impl_->database,
-                  "SELECT data FROM curves WHERE run = ?1 UNION ALL SELECT data FROM last_frames "
-                  "WHERE run = ?1");
-      s.bind(1, static_cast<std::int64_t>(row.run));
-      XXH64_hash_t hash = 0;
-      while (s.step()) {
-        const auto bytes = s.bytes(0);
-        hash = XXH3_64bits_withSeed(bytes.data(), bytes.size(), hash);
-      }
-      text += fmt::format(",{:016x}", hash);
-    }
-    text += '\n';
-  }
-  return text;
+const fs::path& SweepTable::file() const {
+  return impl_->database.file();
 }
 
 } // namespace sandglass::analysis

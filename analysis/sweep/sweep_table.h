@@ -34,6 +34,7 @@ struct SweepColumn {
 };
 
 enum class SweepStatus { waiting, done, failed };
+const char* nameOf(SweepStatus status);
 
 /// One run of one point.
 struct SweepRow {
@@ -93,6 +94,9 @@ public:
   std::string csv(bool withBlobs = false) const;
 
 private:
+  std::uint64_t blobHash(int run) const; ///< of curves and last frame
+  const std::filesystem::path& file() const;
+
   struct Impl;
   explicit SweepTable(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

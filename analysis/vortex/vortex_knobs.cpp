@@ -30,6 +30,7 @@ const std::vector<ParameterSpec>& vortexKnobs() {
                  "own: rising grains of a spout: share of all, or a number from 1"),
       numberKnob("spout_small", own.spoutSmall, 0, 1, "own: share below which it is small"),
       numberKnob("spout_large", own.spoutLarge, 0, 1, "own: share from which it is none"),
+      numberKnob("spout_core", own.spoutCore, 0, 1, "own: empty core of a spout at least, in tank radii"),
       numberKnob("spout_reach", grain.spoutReach, 0, 1,
                  "rising grains count this near the axis, in tank radii"),
       numberKnob("riser_step", grain.riserStep, 0, far,
@@ -75,6 +76,7 @@ VortexRules rulesOf(const Parameters& knobs) {
   rules.spoutLeast = knobs.number("spout_least");
   rules.spoutSmall = knobs.number("spout_small");
   rules.spoutLarge = knobs.number("spout_large");
+  rules.spoutCore = knobs.number("spout_core");
   return rules;
 }
 

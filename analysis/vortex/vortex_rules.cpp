@@ -41,7 +41,8 @@ VortexRules ownVortexRules() {
           .pinnedCoreShare = 0.25,
           .spoutWindow = 1.5,
           .spoutShare = 0.9,
-          .spoutLeast = 0.02};
+          .spoutLeast = 0.02,
+          .spoutCore = 0.1};
 }
 
 VortexRules vortexRules(const std::string& name) {
@@ -60,7 +61,7 @@ std::vector<std::pair<std::string, double>> VortexRules::thresholds() const {
           {"pinned_core", pinnedCore},     {"pinned_core_share", pinnedCoreShare},
           {"spout_window", spoutWindow},   {"spout_share", spoutShare},
           {"spout_least", spoutLeast},     {"spout_small", spoutSmall},
-          {"spout_large", spoutLarge}};
+          {"spout_large", spoutLarge},     {"spout_core", spoutCore}};
 }
 
 } // namespace sandglass::analysis

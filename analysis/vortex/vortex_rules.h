@@ -56,6 +56,8 @@ struct VortexRules {
   double spoutLeast = 5;     ///< rising grains at least: a number, or a share of all where below 1
   double spoutSmall = 0.125; ///< share of the grains below which a spout is small
   double spoutLarge = 0.25;  ///< share from which it is no spout
+  double spoutCore = 0; ///< mean radius of the empty core, in tank radii, below which nothing spouts (own):
+                        ///< grains of a flat bed that hovers rise and fall too, but none flow up its middle
 
   /// Every number by name, with what it means, for tables and pictures.
   std::vector<std::pair<std::string, double>> thresholds() const;

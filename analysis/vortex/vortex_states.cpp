@@ -38,7 +38,7 @@ public:
     small_ = rules.spoutSmall * n;
     large_ = rules.spoutLarge * n;
     const auto count = samples_.size() + 1;
-    for (auto* sum : {&fluid_, &pinned_, &spout_, &smallSpout_, &risers_, &drift_, &energy_, &high_})
+    for (auto* sum : {&fluid_, &pinned_, &spout_, &smallSpout_, &risers_, &core_, &drift_, &energy_, &high_})
       sum->assign(count, 0.0);
     const double wanted = measures.bins() - 1 - rules.fluidViolations;
     for (std::size_t k = 0; k < samples_.size(); ++k) {
@@ -50,6 +50,7 @@ public:
       add(smallSpout_, k, c >= least_ && c < small_);
       add(spout_, k, c >= lower && c < large_);
       add(risers_, k, c);
+      add(core_, k, s.core / tank.radius);
       add(energy_, k, s.aboveFloor);
       add(high_, k, s.highest >= highest || !s.sound);
       add(drift_, k,
@@ -152,14 +153,15 @@ public:
   const std::vector<double>& pinnedSum() const { return pinned_; }
   const std::vector<double>& spoutSum() const { return spout_; }
   const std::vector<double>& smallSum() const { return smallSpout_; }
-  const std::vector<double>& riserSum() const { return risers_; }
+  const std::vector<double>& coreSum() const { return core_; }
 
 private:
   static void add(std::vector<double>& sum, std::size_t k, double value) { sum[k + 1] = sum[k] + value; }
 
   std::size_t spouting(std::size_t end) const {
     std::size_t from;
-    return window(rules_.spoutWindow, end, from) && mean(spout_, from, end) >= rules_.spoutShare - 1e-12
+    return window(rules_.spoutWindow, end, from) && mean(spout_, from, end) >= rules_.spoutShare - 1e-12 &&
+                   mean(core_, from, end) >= rules_.spoutCore
                ? from
                : never;
   }
@@ -186,7 +188,7 @@ private:
   const VortexRules& rules_;
   const std::vector<VortexSample>& samples_;
   double perUnit_ = 1, least_ = 0, small_ = 0, large_ = 0;
-  std::vector<double> fluid_, pinned_, spout_, smallSpout_, risers_, drift_, energy_, high_;
+  std::vector<double> fluid_, pinned_, spout_, smallSpout_, risers_, core_, drift_, energy_, high_;
   std::size_t settled_ = never;
   bool exploded_ = false;
 };
@@ -204,10 +206,10 @@ double confidence(const VortexMeasures& measures, const VortexRules& rules, Vort
   };
   const auto limit = [](double value) { return std::min(value, 1.0); };
   for (const double factor : {0.8, 1.2}) {
-    for (const auto member :
-         {&VortexRules::settleDrift, &VortexRules::pinnedShare, &VortexRules::pinnedCore,
-          &VortexRules::pinnedCoreShare, &VortexRules::spoutLeast, &VortexRules::spoutSmall,
-          &VortexRules::spoutLarge, &VortexRules::fluidShare, &VortexRules::spoutShare}) {
+    for (const auto member : {&VortexRules::settleDrift, &VortexRules::pinnedShare, &VortexRules::pinnedCore,
+                              &VortexRules::pinnedCoreShare, &VortexRules::spoutLeast,
+                              &VortexRules::spoutSmall, &VortexRules::spoutLarge, &VortexRules::spoutCore,
+                              &VortexRules::fluidShare, &VortexRules::spoutShare}) {
       VortexRules changed = rules;
       if (changed.*member == 0) continue;
       changed.*member *= factor;
@@ -260,12 +262,16 @@ VortexVerdict vortexVerdict(const VortexMeasures& measures, const VortexRules& r
         "pinned", since(&Windows::pinned), w.share(w.pinnedSum(), rules.pinnedWindow, end), rules.pinnedShare,
         rules.sliding ? "share of frames with an empty core" : "share of frames with all grains at the wall");
   if (rules.sliding) {
+    std::size_t from = never;
     const std::string measure = fmt::format("share of frames with {:.4g} to {:.4g} of the grains rising",
                                             rules.spoutLeast, rules.spoutLarge);
     note("small spout", since(&Windows::small), w.share(w.spoutSum(), rules.spoutWindow, end),
          rules.spoutShare, measure);
     note("large spout", since(&Windows::large), w.share(w.spoutSum(), rules.spoutWindow, end),
          rules.spoutShare, measure);
+    const double core = w.share(w.coreSum(), rules.spoutWindow, end);
+    note("open core", core >= rules.spoutCore && w.window(rules.spoutWindow, end, from) ? from : never, core,
+         rules.spoutCore, "mean radius of the empty core of a spout, in tank radii");
   } else {
     note("small spout", since(&Windows::small), w.longest(w.smallSum(), end), rules.spoutWindow,
          "longest run of frames with as many rising grains");

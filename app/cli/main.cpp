@@ -6,6 +6,7 @@
 #ifdef SANDGLASS_VIS
 #include "vis/readers/child_reader.h"
 #include "vis/readers/vtk_frame.h"
+#include "vis/readers/vti_field.h"
 #include "vis/readers/vtp_mesh.h"
 #endif
 
@@ -29,6 +30,7 @@ int main(int argc, char** argv) {
   cli::addSweep(app, action);
 #ifdef SANDGLASS_VIS
   vis::registerMeshReaders();
+  vis::registerFlowReaders();
   vis::registerFrameReaders();
   cli::addRender(app, action);
 #endif

@@ -7,6 +7,7 @@
 #include "sim/base/error.h"
 #include "vis/readers/child_reader.h"
 #include "vis/readers/vtk_frame.h"
+#include "vis/readers/vti_field.h"
 #include "vis/readers/vtp_mesh.h"
 
 #include <CLI/CLI.hpp>
@@ -119,6 +120,7 @@ int main(int argc, char** argv) {
     return app.exit(e) == 0 ? 0 : 2;
   }
   sandglass::vis::registerMeshReaders();
+  sandglass::vis::registerFlowReaders();
   sandglass::vis::registerFrameReaders();
   try {
     return show(arguments, argc, argv);

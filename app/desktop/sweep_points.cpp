@@ -1,5 +1,7 @@
 #include "app/desktop/sweep_points.h"
 
+#include "analysis/statistics.h"
+#include "analysis/sweep/sweep_classes.h"
 #include "sim/base/error.h"
 
 #include <fmt/format.h>
@@ -19,26 +21,16 @@ bool isText(const SweepData& data, std::size_t column) {
   return data.columns[column].text;
 }
 
-bool isRate(const std::string& unit) {
-  return unit == "1/s" || unit == "rad/s";
-}
-
 bool matches(const SweepData& data, const analysis::SweepRow& row, const SweepChoice& choice) {
   return std::all_of(choice.only.begin(), choice.only.end(),
                      [&](const auto& only) { return cellText(data, row, only.first) == only.second; });
 }
 
-/// The classes of a column: the states of a bed in their own order, others by the alphabet.
 std::vector<std::string> classesOf(const SweepData& data, std::size_t column) {
-  static const std::vector<std::string> states{"unresolved", "flat",        "fluid",
-                                               "pinned",     "small spout", "large spout"};
   std::set<std::string> found;
   for (const auto& row : data.rows)
     if (row.status == analysis::SweepStatus::done) found.insert(row.text(column));
-  const bool known = std::all_of(found.begin(), found.end(), [&](const std::string& name) {
-    return std::find(states.begin(), states.end(), name) != states.end();
-  });
-  return known ? states : std::vector<std::string>(found.begin(), found.end());
+  return analysis::orderOfClasses(found);
 }
 
 void judgeTexts(SweepSpot& spot, const SweepData& data, std::size_t column,
@@ -56,38 +48,29 @@ void judgeTexts(SweepSpot& spot, const SweepData& data, std::size_t column,
 }
 
 void judgeNumbers(SweepSpot& spot, const SweepData& data, std::size_t column) {
-  double sum = 0, squares = 0;
-  int count = 0;
-  for (const auto k : spot.rows) {
-    const double v = data.rows[k].number(column);
-    if (data.rows[k].status != analysis::SweepStatus::done || !std::isfinite(v)) continue;
-    sum += v;
-    ++count;
-  }
-  spot.value = count > 0 ? sum / count : std::nan("");
-  if (count < 2) return;
+  std::vector<double> values;
   for (const auto k : spot.rows)
     if (const double v = data.rows[k].number(column);
         data.rows[k].status == analysis::SweepStatus::done && std::isfinite(v))
-      squares += (v - spot.value) * (v - spot.value);
-  spot.deviation = std::sqrt(squares / (count - 1));
+      values.push_back(v);
+  spot.value = values.empty() ? std::nan("") : analysis::mean(values);
+  spot.deviation = std::sqrt(analysis::variance(values));
 }
 
 /// The column's mean over the runs of each place along `along`.
 std::map<double, double> meansAlong(const SweepData& data, const SweepChoice& choice, std::size_t column,
                                     std::size_t along) {
-  std::map<double, std::pair<double, int>> sums;
+  std::map<double, std::vector<double>> values;
   for (const auto& row : data.rows) {
     const double at = row.number(along), v = row.number(column);
     if (row.status != analysis::SweepStatus::done || !std::isfinite(at) || !std::isfinite(v) ||
         !matches(data, row, choice))
       continue;
-    sums[at].first += v;
-    ++sums[at].second;
+    values[at].push_back(v);
   }
   std::map<double, double> means;
-  for (const auto& [at, sum] : sums)
-    means[at] = sum.first / sum.second;
+  for (const auto& [at, found] : values)
+    means[at] = analysis::mean(found);
   return means;
 }
 
@@ -102,10 +85,10 @@ std::vector<std::pair<double, double>> criticalCurve(const SweepData& data, cons
     return c.name.find("ratio") != std::string::npos && c.name.find("curvature") == std::string::npos;
   };
   if (choice.x == critical || choice.y == critical) return curve;
-  if (isRate(y.unit) || isRatio(y)) {
+  if (analysis::isRotation(y.unit) || isRatio(y)) {
     for (const auto& [at, mean] : meansAlong(data, choice, critical, choice.x))
       curve.emplace_back(at, isRatio(y) ? 1 : mean);
-  } else if (isRate(x.unit) || isRatio(x)) {
+  } else if (analysis::isRotation(x.unit) || isRatio(x)) {
     for (const auto& [at, mean] : meansAlong(data, choice, critical, choice.y))
       curve.emplace_back(isRatio(x) ? 1 : mean, at);
   }

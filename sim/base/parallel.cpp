@@ -11,6 +11,8 @@ namespace {
 /// Looks that a thread takes before it lets others have the core, and before it sleeps: some 50 microseconds
 /// and a millisecond.
 constexpr int eagerLooks = 1000, politeLooks = 2000;
+/// Bits of the control word that tell what has happened, not how to compute.
+constexpr unsigned exceptionsMet = 0x3f;
 
 } // namespace
 
@@ -35,6 +37,7 @@ void Parallel::run(std::int64_t count, std::int64_t pieces, Call call, void* bod
   pieces_ = pieces;
   call_ = call;
   body_ = body;
+  arithmetic_ = _mm_getcsr() & ~exceptionsMet;
   failure_ = nullptr;
   finished_.store(0, std::memory_order_relaxed);
   const std::uint64_t round = round_.load(std::memory_order_relaxed) + 1;
@@ -68,6 +71,7 @@ bool Parallel::takePiece(std::atomic<std::uint64_t>& share) {
     if (k >= static_cast<std::int64_t>(word >> 16 & 0xffff)) return false;
   } while (
       !share.compare_exchange_weak(word, word + 1, std::memory_order_acq_rel, std::memory_order_acquire));
+  if ((_mm_getcsr() & ~exceptionsMet) != arithmetic_) _mm_setcsr(arithmetic_);
   try {
     call_(body_, count_ * k / pieces_, count_ * (k + 1) / pieces_);
   } catch (...) {

@@ -59,6 +59,7 @@ private:
   std::int64_t count_ = 0;
   Call call_ = nullptr;
   void* body_ = nullptr;
+  unsigned arithmetic_ = 0; ///< control word of the calling thread: all round as it does
   std::exception_ptr failure_;
   std::mutex failureGuard_;
   /// A thread's share: number of the loop (32 bits), its end (16) and the next free piece (16) in one word,

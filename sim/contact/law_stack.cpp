@@ -248,6 +248,7 @@ void LawStack::allowAnySize(const Scene& scene) {
   for (const Entry& entry : entries_)
     if (entry.name == addedName) plain.add(entry.law);
   plain.width_ = width_;
+  plain.sumsOverlaps_ = sumsOverlaps_;
   *this = std::move(plain);
 }
 

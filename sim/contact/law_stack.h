@@ -56,12 +56,16 @@ public:
   void useWidth(KernelWidth width) { width_ = width; }
   bool turning() const { return turning_; }
   bool readsSpin() const { return readsSpin_; }
+  /// Somebody reads the sum of a grain's overlaps: it stands beside the torque (ParticleView::sumsOverlaps).
+  void sumOverlaps() { sumsOverlaps_ = true; }
+  bool sumsOverlaps() const { return sumsOverlaps_; }
   bool ownTorque() const { return ownTorque_; }         ///< Law::ownTorque of the tangential law
   bool fullRadiusArm() const { return fullRadiusArm_; } ///< Law::fullRadiusArm of any law
   bool hasEvents() const { return events_; }
   const std::vector<std::string>& quantityNames() const { return quantityNames_; }
   /// Quads written per pair: force; with friction also a torque; with couples those too.
-  int outputQuads() const { return readsSpin_ ? 3 : turning_ ? 2 : 1; }
+  /// Quads of output a pair; a law with a torque of its own leaves no couple beside it.
+  int outputQuads() const { return readsSpin_ && !ownTorque_ ? 3 : turning_ || sumsOverlaps_ ? 2 : 1; }
   int outputStride() const { return (mixed_ ? 2 : 4) * outputQuads(); } ///< doubles a pair, ParticleView
 
   /// What can be had in mixed precision, as a sentence that the laws of the scene may follow.
@@ -84,7 +88,8 @@ private:
   double range_ = 0.0;
   unsigned reads_ = 0;
   KernelWidth width_ = bestKernelWidth();
-  bool turning_ = false, readsSpin_ = false, fullRadiusArm_ = false, events_ = false, ownTorque_ = false;
+  bool turning_ = false, readsSpin_ = false, fullRadiusArm_ = false, events_ = false, ownTorque_ = false,
+       sumsOverlaps_ = false;
 };
 
 } // namespace sandglass

@@ -33,6 +33,8 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
   view_.places = list.places();
   view_.readsSpin = laws_.readsSpin();
   view_.radiusArm = laws_.fullRadiusArm();
+  view_.ownTorque = laws_.ownTorque();
+  view_.sumsOverlaps = laws_.sumsOverlaps();
   view_.reads = laws_.reads();
   view_.oneRadius = grains.size() > 0 ? grains.place[0].w : 0.0;
   view_.oneInverseMass = grains.size() > 0 ? grains.motion[0].w : 0.0;
@@ -55,7 +57,7 @@ void PairForces::pickLoop(int material) {
   fusedLoop_ = nullptr;
   const bool linear =
       fused_.normal == FusedLaws::Normal::linear || fused_.normal == FusedLaws::Normal::linearOfMass;
-  const bool possible = view_.oneMaterial && (linear || view_.oneRadius > 0.0);
+  const bool possible = view_.oneMaterial && !view_.sumsOverlaps && (linear || view_.oneRadius > 0.0);
   if (laws_.mixed()) {
     fusedLoop_ = possible ? mixedLoop(fused_, laws_.width(), laws_.fastArithmetic()) : nullptr;
     if (!fusedLoop_ && grains_->size() > 0) throw InputError(LawStack::mixedRule);
@@ -70,26 +72,6 @@ void PairForces::fillBlock(std::int64_t first, int count, double dt, ContactBloc
                            PairColumns& columns) const {
   b.dt = dt;
   kernel_.fill(view_, first, count, b, columns);
-  if (laws_.ownTorque()) sumSpins(first, b);
-}
-
-void PairForces::sumSpins(std::int64_t first, ContactBlock& b) const {
-  for (int c = 0; c < b.size; ++c) {
-    const auto [i, j] = list_->pairs()[first + c];
-    const Quad &a = grains_->roll[i], &z = grains_->roll[j];
-    b.wx[c] = a.x * a.w + z.x * z.w;
-    b.wy[c] = a.y * a.w + z.y * z.w;
-    b.wz[c] = a.z * a.w + z.z * z.w;
-  }
-}
-
-void PairForces::writeTorques(const ContactBlock& b, double* out) const {
-  for (int c = 0; c < b.size; ++c, out += view_.outputStride) {
-    out[4] = b.mx[c] / b.radiusA[c];
-    out[5] = b.my[c] / b.radiusA[c];
-    out[6] = b.mz[c] / b.radiusA[c];
-    out[8] = out[9] = out[10] = 0.0;
-  }
 }
 
 void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch,
@@ -108,7 +90,6 @@ void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Sc
     applyLaws(first, scratch);
     reportOverlaps(first, scratch);
     kernel_.write(view_, first, scratch.block, scratch.columns, keepHistory, out);
-    if (laws_.ownTorque()) writeTorques(scratch.block, out);
   }
 }
 

@@ -71,8 +71,6 @@ public:
 private:
   void pickLoop(int material);
   void fillBlock(std::int64_t first, int count, double dt, ContactBlock& b, PairColumns& columns) const;
-  void sumSpins(std::int64_t first, ContactBlock& b) const;    ///< for Law::ownTorque
-  void writeTorques(const ContactBlock& b, double* out) const; ///< likewise
   void applyLaws(std::int64_t first, Scratch& scratch) const;
   void leaveRange(std::int64_t first, const double (*before)[ContactBlock::capacity], Scratch& scratch) const;
   void reportOverlaps(std::int64_t first, Scratch& scratch) const;

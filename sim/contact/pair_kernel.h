@@ -41,7 +41,9 @@ struct ParticleView {
   int outputStride = 4; ///< doubles a pair: four a quad, or two where quads are of floats (mixed precision)
   const std::int32_t* places = nullptr; ///< eight a grain, as ringEntry() packs them
   bool readsSpin = false, radiusArm = false;
-  unsigned reads = 0;                       ///< LawColumns
+  bool ownTorque = false; ///< a law's couple over the radius is the torque on either grain; spins are added
+  bool sumsOverlaps = false; ///< last number of the torque's quad: the overlap [m], 0 for a gap
+  unsigned reads = 0;        ///< LawColumns
   double oneRadius = 0, oneInverseMass = 0; ///< of all grains; 0 where they differ
   // Mixed precision alone (mixed_records.h).
   std::int32_t* mixed = nullptr;             ///< `quads` times four numbers a grain

@@ -54,13 +54,13 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
            bool keepHistory, double* output) {
   if (!keepHistory) writeHistory(v, first, b);
   OutputColumns o;
-  outputs(b, p, v.outputQuads > 1, o);
+  outputs(v, b, p, o);
   const std::int64_t stride = 4 * v.outputQuads;
   for (int c = 0; c < b.size; c += 4) {
     double* out = output + c * stride;
     const auto at = [c](const double* column) { return _mm256_load_pd(column + c); };
     scatter(at(o.fx), at(o.fy), at(o.fz), out, stride);
-    if (stride > 4) scatter(at(o.tx), at(o.ty), at(o.tz), out + 4, stride);
+    if (stride > 4) scatter(at(o.tx), at(o.ty), at(o.tz), out + 4, stride, at(o.overlap));
     if (stride > 8) scatter(at(b.mx), at(b.my), at(b.mz), out + 8, stride);
   }
 }

@@ -66,7 +66,8 @@ void fill(const ParticleView& v, std::int64_t first, int count, ContactBlock& b,
 }
 
 /// As outputs(), in registers.
-template <int quads> inline void writeOutputs(const ContactBlock& b, const PairColumns& p, double* output) {
+template <int quads>
+inline void writeOutputs(const ParticleView& v, const ContactBlock& b, const PairColumns& p, double* output) {
   constexpr std::int64_t stride = 4 * quads;
   for (int c = 0; c < b.size; c += 8) {
     double* out = output + c * stride;
@@ -76,9 +77,16 @@ template <int quads> inline void writeOutputs(const ContactBlock& b, const PairC
     if constexpr (quads == 1) {
       scatter(f.x, f.y, f.z, out, stride);
     } else {
-      const Vector3<__m512d> t = contactTorque<ExactAvx512>(n, at(p.arm), tangential);
+      Vector3<__m512d> t;
+      if (v.ownTorque) {
+        const __m512d r = at(b.radiusA);
+        t = {at(b.mx) / r, at(b.my) / r, at(b.mz) / r};
+      } else {
+        t = contactTorque<ExactAvx512>(n, at(p.arm), tangential);
+      }
+      const __m512d zero = _mm512_setzero_pd();
       scatter(f.x, f.y, f.z, out, stride);
-      scatter(t.x, t.y, t.z, out + 4, stride);
+      scatter(t.x, t.y, t.z, out + 4, stride, v.sumsOverlaps ? _mm512_max_pd(at(b.overlap), zero) : zero);
     }
     if constexpr (quads > 2) scatter(at(b.mx), at(b.my), at(b.mz), out + 8, stride);
   }
@@ -88,11 +96,11 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
            bool keepHistory, double* output) {
   if (!keepHistory) writeHistory(v, first, b);
   if (v.outputQuads == 1)
-    writeOutputs<1>(b, p, output);
+    writeOutputs<1>(v, b, p, output);
   else if (v.outputQuads == 2)
-    writeOutputs<2>(b, p, output);
+    writeOutputs<2>(v, b, p, output);
   else
-    writeOutputs<3>(b, p, output);
+    writeOutputs<3>(v, b, p, output);
 }
 
 template <int quads>
@@ -131,7 +139,7 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
 /// As move(), velocity and roll of a record in one register.
 void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
               const double* gravity, double speedLimit, Speeds& speeds) {
-  if (v.outputQuads != 2) return move(v, first, count, s, dt, gravity, speedLimit, speeds);
+  if (v.quads != 3 || v.outputQuads != 2) return move(v, first, count, s, dt, gravity, speedLimit, speeds);
   const __m512d share = _mm512_set_pd(0, 2.5, 2.5, 2.5, 0, 1, 1, 1);
   const __m512d pull = _mm512_set_pd(0, 0, 0, 0, 0, dt * gravity[2], dt * gravity[1], dt * gravity[0]);
   const __m512d size = _mm512_castsi512_pd(_mm512_set1_epi64(static_cast<std::int64_t>(~(1ull << 63))));

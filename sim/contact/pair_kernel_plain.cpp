@@ -27,9 +27,10 @@ void fill(const ParticleView& v, std::int64_t first, int count, ContactBlock& b,
     p.rollY[c] = a[9] + z[9];
     p.rollZ[c] = a[10] + z[10];
     if (!v.readsSpin) continue;
-    b.wx[c] = a[8] * a[11] - z[8] * z[11];
-    b.wy[c] = a[9] * a[11] - z[9] * z[11];
-    b.wz[c] = a[10] * a[11] - z[10] * z[11];
+    const double sign = v.ownTorque ? -1.0 : 1.0;
+    b.wx[c] = a[8] * a[11] - sign * z[8] * z[11];
+    b.wy[c] = a[9] * a[11] - sign * z[9] * z[11];
+    b.wz[c] = a[10] * a[11] - sign * z[10] * z[11];
   }
   turning ? finishGeometry<true>(b, p, v.radiusArm) : finishGeometry<false>(b, p, v.radiusArm);
   fillExtras(v, first, b, p);
@@ -41,7 +42,7 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
            bool keepHistory, double* output) {
   if (!keepHistory) writeHistory(v, first, b);
   OutputColumns o;
-  outputs(b, p, v.outputQuads > 1, o);
+  outputs(v, b, p, o);
   for (int c = 0; c < b.size; ++c) {
     double* out = output + c * 4 * v.outputQuads;
     out[0] = o.fx[c];
@@ -51,6 +52,7 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
     out[4] = o.tx[c];
     out[5] = o.ty[c];
     out[6] = o.tz[c];
+    out[7] = o.overlap[c];
     if (v.outputQuads < 3) continue;
     out[8] = b.mx[c];
     out[9] = b.my[c];
@@ -71,7 +73,7 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
       for (int k = 0; k < 3; ++k)
         to[k] += sign * out[k];
       if (stride > 4)
-        for (int k = 4; k < 7; ++k)
+        for (int k = 4; k < 8; ++k)
           to[k] += out[k];
       if (stride > 8)
         for (int k = 8; k < 11; ++k)

@@ -99,9 +99,10 @@ inline void writeHistory(const ParticleView& v, std::int64_t first, const Contac
 /// Force on a, and what turns either grain.
 struct OutputColumns {
   alignas(64) double fx[64], fy[64], fz[64], tx[64], ty[64], tz[64];
+  alignas(64) double overlap[64]{}; ///< zero where nobody sums it
 };
 
-inline void outputs(const ContactBlock& b, const PairColumns& p, bool turning, OutputColumns& o) {
+inline void outputs(const ParticleView& v, const ContactBlock& b, const PairColumns& p, OutputColumns& o) {
   using A = ScalarArithmetic;
   LANES(c) {
     const Vector3<double> n{b.nx[c], b.ny[c], b.nz[c]}, tangential{b.ftx[c], b.fty[c], b.ftz[c]};
@@ -110,7 +111,14 @@ inline void outputs(const ContactBlock& b, const PairColumns& p, bool turning, O
     o.fy[c] = force.y;
     o.fz[c] = force.z;
   }
-  if (turning) LANES(c) {
+  if (v.sumsOverlaps) LANES(c) o.overlap[c] = b.overlap[c] > 0.0 ? b.overlap[c] : 0.0;
+  if (v.ownTorque) LANES(c) {
+      o.tx[c] = b.mx[c] / b.radiusA[c];
+      o.ty[c] = b.my[c] / b.radiusA[c];
+      o.tz[c] = b.mz[c] / b.radiusA[c];
+    }
+  else if (v.outputQuads > 1)
+    LANES(c) {
       const Vector3<double> n{b.nx[c], b.ny[c], b.nz[c]}, tangential{b.ftx[c], b.fty[c], b.ftz[c]};
       const Vector3<double> torque = contactTorque<A>(n, p.arm[c], tangential);
       o.tx[c] = torque.x;

@@ -34,7 +34,8 @@ template <bool turning> inline Columns placesOfFour(const ParticleView& v, std::
   return transpose(apart[0], apart[1], apart[2], apart[3]);
 }
 
-/// Differences of velocities with the sum of inverse masses, sums of surface speeds, differences of spins.
+/// Differences of velocities with the sum of inverse masses, sums of surface speeds, differences of spins
+/// (sums where a law has its own torque).
 struct FourMotions {
   Columns motion, roll, spin;
 };
@@ -44,6 +45,7 @@ inline FourMotions motionsOfFour(const ParticleView& v, std::int64_t first) {
   constexpr std::int64_t stride = turning ? 12 : 8;
   const __m256d oneButLast = _mm256_set_pd(-1, 1, 1, 1);
   const std::int32_t* pair = v.pairs + 2 * first;
+  const __m256d sign = _mm256_set1_pd(v.ownTorque ? -1.0 : 1.0);
   __m256d dv[4], u[4], w[4];
   for (int k = 0; k < 4; ++k) {
     const double *a = v.records + pair[2 * k] * stride, *z = v.records + pair[2 * k + 1] * stride;
@@ -53,7 +55,7 @@ inline FourMotions motionsOfFour(const ParticleView& v, std::int64_t first) {
       u[k] = _mm256_add_pd(ra, rz);
       if constexpr (spin)
         w[k] = _mm256_sub_pd(_mm256_mul_pd(ra, _mm256_permute4x64_pd(ra, 0xff)),
-                             _mm256_mul_pd(rz, _mm256_permute4x64_pd(rz, 0xff)));
+                             _mm256_mul_pd(_mm256_mul_pd(sign, rz), _mm256_permute4x64_pd(rz, 0xff)));
     }
   }
   FourMotions out;
@@ -63,9 +65,10 @@ inline FourMotions motionsOfFour(const ParticleView& v, std::int64_t first) {
   return out;
 }
 
-/// Columns x y z of four contacts to quads (x y z 0), `stride` doubles apart.
-inline void scatter(__m256d x, __m256d y, __m256d z, double* out, std::int64_t stride) {
-  const Columns q = transpose(x, y, z, _mm256_setzero_pd());
+/// Columns x y z w of four contacts to quads, `stride` doubles apart.
+inline void scatter(__m256d x, __m256d y, __m256d z, double* out, std::int64_t stride,
+                    __m256d w = _mm256_setzero_pd()) {
+  const Columns q = transpose(x, y, z, w);
   _mm256_store_pd(out, q.x);
   _mm256_store_pd(out + stride, q.y);
   _mm256_store_pd(out + 2 * stride, q.z);

@@ -53,7 +53,8 @@ template <bool turning> inline Columns placesOfEight(const ParticleView& v, std:
   return transpose(apart[0], apart[1], apart[2], apart[3]);
 }
 
-/// Differences of velocities with the sum of inverse masses, sums of surface speeds, differences of spins.
+/// Differences of velocities with the sum of inverse masses, sums of surface speeds, differences of spins
+/// (sums where a law has its own torque).
 struct EightMotions {
   Columns motion, roll, spin;
 };
@@ -64,6 +65,7 @@ inline EightMotions motionsOfEight(const ParticleView& v, std::int64_t first) {
   const double* records = v.records;
   const __m512d oneButLast = _mm512_set_pd(-1, 1, 1, 1, -1, 1, 1, 1);
   const std::int32_t* pair = v.pairs + 2 * first;
+  const __m512d sign = _mm512_set1_pd(v.ownTorque ? -1.0 : 1.0);
   __m512d dv[4], u[4], w[4];
   for (int k = 0; k < 4; ++k) {
     const double *a0 = records + pair[2 * low[k]] * stride, *z0 = records + pair[2 * low[k] + 1] * stride;
@@ -72,7 +74,7 @@ inline EightMotions motionsOfEight(const ParticleView& v, std::int64_t first) {
     if constexpr (turning) {
       const __m512d ra = both(a0 + 8, a1 + 8), rz = both(z0 + 8, z1 + 8);
       u[k] = ra + rz;
-      if constexpr (spin) w[k] = ra * _mm512_permutex_pd(ra, 0xff) - rz * _mm512_permutex_pd(rz, 0xff);
+      if constexpr (spin) w[k] = ra * _mm512_permutex_pd(ra, 0xff) - sign * rz * _mm512_permutex_pd(rz, 0xff);
     }
   }
   EightMotions out;
@@ -82,12 +84,12 @@ inline EightMotions motionsOfEight(const ParticleView& v, std::int64_t first) {
   return out;
 }
 
-/// Columns x y z of eight contacts to quads (x y z 0), `stride` doubles apart.
-inline void scatter(__m512d x, __m512d y, __m512d z, double* out, std::int64_t stride) {
-  const __m512d zero = _mm512_setzero_pd();
+/// Columns x y z w of eight contacts to quads, `stride` doubles apart.
+inline void scatter(__m512d x, __m512d y, __m512d z, double* out, std::int64_t stride,
+                    __m512d w = _mm512_setzero_pd()) {
   const __m512d lowXy = _mm512_unpacklo_pd(x, y),
                 highXy = _mm512_unpackhi_pd(x, y); // contacts 0 2 4 6, 1 3 5 7
-  const __m512d lowZ = _mm512_unpacklo_pd(z, zero), highZ = _mm512_unpackhi_pd(z, zero);
+  const __m512d lowZ = _mm512_unpacklo_pd(z, w), highZ = _mm512_unpackhi_pd(z, w);
   const auto put = [&](__m512d xy, __m512d z0, int at) {
     // Lanes of 128 bits: (xy0 xy2 xy4 xy6), (z0 z2 z4 z6) to two quads each.
     const __m512d first = _mm512_permutex2var_pd(xy, _mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0), z0);

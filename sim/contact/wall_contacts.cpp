@@ -19,6 +19,7 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
     bounds.push_back(wall.shape->bounds());
   std::vector<std::vector<Found>> found(static_cast<std::size_t>((n + chunk - 1) / chunk));
   parallel.forRange(static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t first, std::int64_t last) {
+    WallShape::Touches touches;
     for (std::int64_t c = first; c < last; ++c)
       for (std::int64_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i)
         for (std::size_t w = 0; w < walls.size(); ++w) {
@@ -27,7 +28,7 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
           const double touching = grains.place[i].w + range,
                        reach = touching + grains.listed[i].w + walls[w].allowance;
           if (!walls[w].motion && bounds[w].squaredExteriorDistance(x) >= reach * reach) continue;
-          WallShape::Touches touches;
+          touches.count = 0;
           walls[w].touches(x, reach, touches);
           if (touches.count == 0) continue;
           // The distance to a wall changes by no more than the way gone.
@@ -172,6 +173,7 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
         std::int32_t owner[ContactBlock::capacity]; // candidate of each contact in the block
         double distance[ContactBlock::capacity];
         DeepestOverlap worst;
+        WallShape::Touches now;
         block.size = 0;
         const auto flush = [&] {
           laws_.apply(block, true);
@@ -201,7 +203,7 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
         };
         for (std::int64_t k = first; k < last; ++k) {
           if (feature_[k * slots] < 0 && parted(grains, k)) continue; // nothing then, nothing now
-          WallShape::Touches now;
+          now.count = 0;
           const int count = touches(grains, walls, k, laws_.range(), now);
           std::fill_n(result_.data() + k * 6, 6, 0.0);
           std::int32_t* feature = feature_.data() + k * slots;

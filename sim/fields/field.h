@@ -26,6 +26,9 @@ public:
   /// what it multiplies); never 0.
   virtual void apply(FieldBlock& block, double factor) const = 0;
 
+  /// Whether it reads FieldBlock::overlap.
+  virtual bool readsOverlaps() const { return false; }
+
   /// Largest speed that a flow has in the domain at the start, or an estimate [m/s]; for the time step.
   virtual double topSpeed(const Domain&) const { return 0.0; }
 };

@@ -3,6 +3,7 @@
 // field is a plain loop that the compiler turns into vector code. Element-wise IEEE operations alone, so the
 // bits do not depend on the width.
 
+#include "sim/base/vec.h"
 #include "sim/contact/pair_kernel.h"
 
 #include <cstdint>
@@ -30,7 +31,16 @@ struct FieldBlock {
   /// [m/s^2] of all that has acted so far: contacts, walls, gravity, fields before. Fields add to it.
   alignas(64) Column ax, ay, az;
   alignas(64) Column flowX, flowY, flowZ; ///< [m/s] of the fluid, of the flows that the next drag feels
+  alignas(64) Column overlap;             ///< [m] sum over contacts with grains, where a field reads it
   alignas(64) Column exposure;            ///< share of a drag that the grain feels, set by a shield; else 1
+
+  /// exp(-decay (x . axis - reference)), kept for the next field that asks for the same.
+  const Column& falloff(double decay, double reference, const Vec3& axis);
+
+private:
+  double decay_ = 0, reference_ = 0;
+  Vec3 axis_ = Vec3::Zero(); ///< zero: nothing is kept yet
+  alignas(64) Column falloff_;
 };
 
 } // namespace sandglass

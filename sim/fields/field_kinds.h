@@ -10,6 +10,7 @@ FieldKind solidBodyVortexField();
 FieldKind rankineVortexField();
 FieldKind lambOseenVortexField();
 FieldKind windField();
+FieldKind griddedWindField();
 FieldKind shieldField();
 FieldKind overlapLiftField();
 FieldKind dragField();

@@ -8,8 +8,9 @@ namespace sandglass {
 
 const std::vector<FieldKind>& fieldKinds() {
   static const std::vector<FieldKind> kinds{
-      solidBodyVortexField(), rankineVortexField(), lambOseenVortexField(), windField(), shieldField(),
-      overlapLiftField(),     dragField(),          spinDragField(),
+      solidBodyVortexField(), rankineVortexField(), lambOseenVortexField(), windField(),
+      griddedWindField(),     shieldField(),        overlapLiftField(),     dragField(),
+      spinDragField(),
   };
   return kinds;
 }

@@ -12,6 +12,7 @@
 namespace sandglass {
 
 class Field;
+struct Domain;
 
 /// In this order fields pass a group of grains.
 enum class FieldRole {
@@ -30,6 +31,8 @@ struct FieldKind {
   std::vector<ParameterSpec> parameters;
   /// Throws InputError (a phrase without file and line) when the values contradict each other.
   std::function<std::unique_ptr<Field>(const Parameters&)> make;
+  /// What speaks against it in that domain, a phrase that goes on after its name; nothing when it is fine.
+  std::function<std::string(const Parameters&, const Domain&)> objection{};
 };
 
 /// All kinds, in the order of the documentation.

@@ -1,6 +1,8 @@
 #include "sim/fields/field_stack.h"
 
 #include "sim/base/error.h"
+#include "sim/contact/pair_load_avx2.h"
+#include "sim/math/exponential.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +15,34 @@ namespace {
 /// Frozen grains have next to no inverse mass; nothing moves them, and nothing does work on them.
 constexpr double freeInverseMass = 1e-20;
 
+/// Adds columns to a quad of each grain's sums.
+void addQuads(GroupSums& sums, int quad, int size, const double* x, const double* y, const double* z) {
+  for (int i = 0; i < size; i += 4) { // rows behind the last hold nothing
+    const Columns rows =
+        transpose(_mm256_load_pd(x + i), _mm256_load_pd(y + i), _mm256_load_pd(z + i), _mm256_setzero_pd());
+    const auto add = [&](int k, __m256d row) {
+      double* at = sums.at[i + k] + 4 * quad;
+      _mm256_store_pd(at, _mm256_add_pd(_mm256_load_pd(at), row));
+    };
+    add(0, rows.x), add(1, rows.y), add(2, rows.z), add(3, rows.w);
+  }
+}
+
 } // namespace
+
+const FieldBlock::Column& FieldBlock::falloff(double decay, double reference, const Vec3& axis) {
+  if (decay == decay_ && reference == reference_ && axis == axis_) return falloff_;
+  decay_ = decay;
+  reference_ = reference;
+  axis_ = axis;
+  const double nx = axis.x(), ny = axis.y(), nz = axis.z();
+  if (nx == 0.0 && ny == 0.0)
+    SANDGLASS_GRAINS(i) falloff_[i] = exponential(-decay * (nz * z[i] - reference));
+  else
+    SANDGLASS_GRAINS(i)
+  falloff_[i] = exponential(-decay * (nx * x[i] + ny * y[i] + nz * z[i] - reference));
+  return falloff_;
+}
 
 FieldStack::FieldStack(const Scene& scene) {
   for (const FieldSpec& spec : scene.fields) {
@@ -25,6 +54,7 @@ FieldStack::FieldStack(const Scene& scene) {
   for (const FieldRole role : {FieldRole::lift, FieldRole::drag, FieldRole::spin})
     for (std::size_t k = 0; k < parts_.size(); ++k)
       if (parts_[k].role == role) order_.push_back(static_cast<int>(k));
+  overlaps_ = readsOverlaps(scene);
   spins_ = std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.role == FieldRole::spin; });
 }
 
@@ -69,29 +99,40 @@ void FieldStack::look(const GrainStore& grains, const PairList& pairs, double ti
 
 void FieldStack::fill(FieldBlock& b, const GroupSums& sums, const GrainStore& grains, const Vec3& gravity,
                       bool couples) const {
-  for (int i = 0; i < FieldBlock::capacity; ++i) {
-    const std::int64_t k = b.first + std::min(i, b.size - 1); // lanes behind the last repeat it
-    const Quad &place = grains.place[k], &motion = grains.motion[k];
-    const double* f = sums.at[std::min(i, b.size - 1)];
-    b.x[i] = place.x;
-    b.y[i] = place.y;
-    b.z[i] = place.z;
-    b.radius[i] = place.w;
-    b.vx[i] = motion.x;
-    b.vy[i] = motion.y;
-    b.vz[i] = motion.z;
-    b.inverseMass[i] = motion.w;
-    b.ax[i] = f[0] * motion.w + gravity.x();
-    b.ay[i] = f[1] * motion.w + gravity.y();
-    b.az[i] = f[2] * motion.w + gravity.z();
-    if (!spins_ || !grains.turning) continue;
-    const Quad& roll = grains.roll[k];
-    b.rollX[i] = roll.x;
-    b.rollY[i] = roll.y;
-    b.rollZ[i] = roll.z;
-    b.turnX[i] = f[4] + (couples ? f[8] * roll.w : 0.0);
-    b.turnY[i] = f[5] + (couples ? f[9] * roll.w : 0.0);
-    b.turnZ[i] = f[6] + (couples ? f[10] * roll.w : 0.0);
+  const bool spins = spins_ && grains.turning;
+  const auto store = [](double* column, int i, __m256d values) { _mm256_store_pd(column + i, values); };
+  const __m256d gx = _mm256_set1_pd(gravity.x()), gy = _mm256_set1_pd(gravity.y()),
+                gz = _mm256_set1_pd(gravity.z());
+  for (int i = 0; i < FieldBlock::capacity; i += 4) {
+    const auto at = [&](int k) { return std::min(i + k, b.size - 1); }; // lanes behind the last repeat it
+    const auto columnsOf = [&](const QuadColumn& column) {
+      const auto load = [&](int k) { return _mm256_load_pd(&column[b.first + at(k)].x); };
+      return transpose(load(0), load(1), load(2), load(3));
+    };
+    const auto sumsOf = [&](int quad) {
+      const auto load = [&](int k) { return _mm256_load_pd(sums.at[at(k)] + 4 * quad); };
+      return transpose(load(0), load(1), load(2), load(3));
+    };
+    const Columns place = columnsOf(grains.place), motion = columnsOf(grains.motion), force = sumsOf(0);
+    store(b.x, i, place.x), store(b.y, i, place.y), store(b.z, i, place.z), store(b.radius, i, place.w);
+    store(b.vx, i, motion.x), store(b.vy, i, motion.y), store(b.vz, i, motion.z);
+    store(b.inverseMass, i, motion.w);
+    store(b.ax, i, _mm256_add_pd(_mm256_mul_pd(force.x, motion.w), gx));
+    store(b.ay, i, _mm256_add_pd(_mm256_mul_pd(force.y, motion.w), gy));
+    store(b.az, i, _mm256_add_pd(_mm256_mul_pd(force.z, motion.w), gz));
+    if (!spins && !overlaps_) continue;
+    Columns torque = sumsOf(1);
+    store(b.overlap, i, torque.w);
+    if (!spins) continue;
+    const Columns roll = columnsOf(grains.roll);
+    store(b.rollX, i, roll.x), store(b.rollY, i, roll.y), store(b.rollZ, i, roll.z);
+    if (couples) {
+      const Columns couple = sumsOf(2);
+      torque.x = _mm256_add_pd(torque.x, _mm256_mul_pd(couple.x, roll.w));
+      torque.y = _mm256_add_pd(torque.y, _mm256_mul_pd(couple.y, roll.w));
+      torque.z = _mm256_add_pd(torque.z, _mm256_mul_pd(couple.z, roll.w));
+    }
+    store(b.turnX, i, torque.x), store(b.turnY, i, torque.y), store(b.turnZ, i, torque.z);
   }
 }
 
@@ -121,7 +162,7 @@ void FieldStack::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t f
   b.dt = dt;
   b.time = time_;
   fill(b, sums, grains, gravity, couples);
-  FieldBlock::Column ax, ay, az, tx, ty, tz;
+  alignas(32) FieldBlock::Column ax, ay, az, tx, ty, tz;
   SANDGLASS_GRAINS(i) {
     ax[i] = b.ax[i];
     ay[i] = b.ay[i];
@@ -144,11 +185,7 @@ void FieldStack::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t f
     work[i] = dt * (ax[i] * (b.vx[i] + 0.5 * dt * b.ax[i]) + ay[i] * (b.vy[i] + 0.5 * dt * b.ay[i]) +
                     az[i] * (b.vz[i] + 0.5 * dt * b.az[i]));
   }
-  for (int i = 0; i < b.size; ++i) {
-    sums.at[i][0] += ax[i];
-    sums.at[i][1] += ay[i];
-    sums.at[i][2] += az[i];
-  }
+  addQuads(sums, 0, b.size, ax, ay, az);
   if (spins) {
     SANDGLASS_GRAINS(i) {
       const bool free = b.inverseMass[i] > freeInverseMass;
@@ -159,11 +196,7 @@ void FieldStack::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t f
       work[i] += dt * (tx[i] * (b.rollX[i] + turn * b.turnX[i]) + ty[i] * (b.rollY[i] + turn * b.turnY[i]) +
                        tz[i] * (b.rollZ[i] + turn * b.turnZ[i]));
     }
-    for (int i = 0; i < b.size; ++i) {
-      sums.at[i][4] += tx[i];
-      sums.at[i][5] += ty[i];
-      sums.at[i][6] += tz[i];
-    }
+    addQuads(sums, 1, b.size, tx, ty, tz);
   }
   if (!count) return;
   double sum = 0.0;
@@ -205,6 +238,13 @@ void FieldStack::setWorkState(const std::vector<double>& state) {
                      "version");
   worked_ = state[0];
   std::copy(state.begin() + 1, state.end(), groupWork_.begin());
+}
+
+bool readsOverlaps(const Scene& scene) {
+  return std::any_of(scene.fields.begin(), scene.fields.end(), [](const FieldSpec& spec) {
+    const FieldKind* kind = findField(spec.what.kind);
+    return kind && kind->make(spec.what.parameters)->readsOverlaps();
+  });
 }
 
 double fastestFlow(const Scene& scene) {

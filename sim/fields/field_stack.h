@@ -56,11 +56,14 @@ private:
 
   std::vector<Part> parts_;
   std::vector<int> order_; ///< lifts, drags, spins
-  bool spins_ = false;
+  bool spins_ = false, overlaps_ = false;
   double time_ = 0;
   double worked_ = 0;             ///< [J] of groups of earlier lists
   std::vector<double> groupWork_; ///< [J] by group of grains
 };
+
+/// Whether a field of the scene reads sums of overlaps.
+bool readsOverlaps(const Scene& scene);
 
 /// Largest sum of the speeds of a scene's flows [m/s], an estimate.
 double fastestFlow(const Scene& scene);

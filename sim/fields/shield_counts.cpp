@@ -1,5 +1,7 @@
 #include "sim/fields/shield_counts.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -90,41 +92,69 @@ void ShieldCounts::listPiece(const GrainStore& grains, std::int64_t index) {
   const Columns& c = columns_;
   const auto n = static_cast<std::int64_t>(grains.size());
   piece.firstDoubt.assign(1, 0);
-  piece.doubts.clear();
+  std::size_t found = 0;
   for (std::int64_t i = index * pieceSize; i < std::min(n, (index + 1) * pieceSize); ++i) {
     const Quad& p = grains.place[i];
     const double mine = grains.listed[i].w * (1.0 + roundOff) + roundOff * p.w;
     const int x = c.cellX(p.x), y = c.cellY(p.y);
     const int y0 = std::max(0, y - 1), y1 = std::min(c.ny - 1, y + 1);
     std::int32_t sure = 0;
-    for (int cx = std::max(0, x - 1); cx <= std::min(c.nx - 1, x + 1); ++cx)
-      for (std::int32_t k = c.first[cx * c.ny + y0]; k < c.first[cx * c.ny + y1 + 1]; ++k) {
-        const double margin = mine + c.allowed[k], reach = p.w + c.radius[k];
-        const double aside = std::max(std::abs(p.x - c.x[k]), std::abs(p.y - c.y[k])), above = p.z - c.z[k];
-        if (aside >= reach + margin || above <= -margin || c.grain[k] == i) continue;
-        if (aside < reach - margin && above > margin)
-          ++sure;
-        else
-          piece.doubts.push_back(c.grain[k]);
+    for (int cx = std::max(0, x - 1); cx <= std::min(c.nx - 1, x + 1); ++cx) {
+      const std::int32_t end = c.first[cx * c.ny + y1 + 1];
+      for (std::int32_t from = c.first[cx * c.ny + y0]; from < end; from += batch) {
+        const int count = std::min(batch, end - from);
+        std::int64_t answer[batch];
+        judge(p, mine, from, count, answer);
+        if (piece.doubts.size() < found + batch) piece.doubts.resize(2 * found + batch);
+        // Without a branch: what comes next cannot be foretold.
+        for (int k = 0; k < count; ++k) {
+          const std::int32_t j = c.grain[from + k];
+          piece.doubts[found] = j;
+          found += (answer[k] == inDoubt) & (j != i);
+          sure += answer[k] == shields;
+        }
       }
+    }
     certain_[i] = sure;
-    piece.firstDoubt.push_back(static_cast<std::int32_t>(piece.doubts.size()));
+    piece.firstDoubt.push_back(static_cast<std::int32_t>(found));
+  }
+  piece.doubts.resize(found);
+}
+
+/// Whether the grains of the columns from `from` on shield a grain at p until the next listing.
+void ShieldCounts::judge(const Quad& p, double mine, std::int32_t from, int count,
+                         std::int64_t* answer) const {
+  const double *x = columns_.x.data() + from, *y = columns_.y.data() + from, *z = columns_.z.data() + from,
+               *radius = columns_.radius.data() + from, *allowed = columns_.allowed.data() + from;
+#pragma GCC ivdep
+  for (int k = 0; k < count; ++k) {
+    const double margin = mine + allowed[k], reach = p.w + radius[k];
+    const double dx = std::abs(p.x - x[k]), dy = std::abs(p.y - y[k]), above = p.z - z[k];
+    const double aside = dx > dy ? dx : dy;
+    const bool never = (aside >= reach + margin) | (above <= -margin);
+    const bool always = (aside < reach - margin) & (above > margin);
+    answer[k] = never ? std::int64_t{apart} : always ? std::int64_t{shields} : std::int64_t{inDoubt};
   }
 }
 
 void ShieldCounts::count(const GrainStore& grains, Parallel& parallel) {
   const auto n = static_cast<std::int64_t>(grains.size());
+  const __m256d signs = _mm256_set1_pd(-0.0);
+  const __m256d aside = _mm256_castsi256_pd(_mm256_set_epi64x(0, 0, -1, -1));
+  const __m256d signsAside = _mm256_and_pd(signs, aside), lower = _mm256_set_pd(0.0, -0.0, -0.0, -0.0);
   parallel.forRange(static_cast<std::int64_t>(pieces_.size()), 4, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t index = first; index < last; ++index) {
       const Piece& piece = pieces_[index];
       for (std::int64_t i = index * pieceSize; i < std::min(n, (index + 1) * pieceSize); ++i) {
-        const Quad& p = grains.place[i];
+        const __m256d p = _mm256_load_pd(&grains.place[i].x), mine = _mm256_permute4x64_pd(p, 0xff);
         std::int32_t count = certain_[i];
         for (std::int32_t d = piece.firstDoubt[i - index * pieceSize];
              d < piece.firstDoubt[i - index * pieceSize + 1]; ++d) {
-          const Quad& q = grains.place[piece.doubts[d]];
-          const double reach = p.w + q.w;
-          count += (std::abs(p.x - q.x) < reach) & (std::abs(p.y - q.y) < reach) & (q.z < p.z);
+          // |dx| < reach, |dy| < reach, dz < 0, all at once.
+          const __m256d q = _mm256_load_pd(&grains.place[piece.doubts[d]].x);
+          const __m256d apart = _mm256_andnot_pd(signsAside, _mm256_sub_pd(q, p));
+          const __m256d reach = _mm256_and_pd(aside, _mm256_add_pd(_mm256_permute4x64_pd(q, 0xff), mine));
+          count += _mm256_testc_pd(_mm256_cmp_pd(apart, reach, _CMP_LT_OQ), lower);
         }
         counts_[i] = count;
       }

@@ -40,6 +40,9 @@ private:
     int cellX(double v) const;
     int cellY(double v) const;
   };
+  enum Answer : std::int64_t { apart, shields, inDoubt };
+  static constexpr int batch = 64; ///< candidates judged at a time
+  void judge(const Quad& p, double mine, std::int32_t from, int count, std::int64_t* answer) const;
   void sortIntoColumns(const GrainStore& grains);
   void listPiece(const GrainStore& grains, std::int64_t piece);
 

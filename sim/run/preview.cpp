@@ -12,7 +12,7 @@ FramePtr previewFrame(const Scene& scene, std::int64_t mostGrains) {
   Scene asked = scene;
   asked.output.quantities = {quantity::velocity};
   asked.output.contacts = false;
-  const auto solver = makeSolver(asked, SolverOptions{1});
+  const auto solver = makeSolver(asked, SolverOptions{1, true});
   StageControl stages(asked, *solver, {});
   if (expectedGrains(asked) <= mostGrains) stages.begin();
   auto frame = std::make_shared<Frame>(*solver->frame());

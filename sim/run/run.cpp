@@ -69,7 +69,7 @@ struct Run::Impl {
     if (!options.solverFactory)
       if (const auto refusals = solverRefusals(scene); !refusals.empty()) throw InputError(refusals);
     const auto make = options.solverFactory ? options.solverFactory : SolverFactory(makeSolver);
-    solver = make(scene, SolverOptions{options.threads});
+    solver = make(scene, SolverOptions{options.threads, options.wallLoads});
     recorder = std::make_unique<RunRecorder>(scene, options, solver->stepSize(), log);
     stages = std::make_unique<StageControl>(scene, *solver, recorder->log());
     provenance = {{"scene", sceneHash(scene)},

@@ -26,6 +26,7 @@ struct RunOptions {
   int threads = 0;              ///< 0: all cores
   bool resume = false;          ///< go on from the newest checkpoint in `folder`; from the start if none
   std::int64_t pauseAt = -1;    ///< step at which the run pauses by itself; negative: none
+  bool wallLoads = true;        ///< frames tell what grains do to walls (SolverOptions)
   bool overwrite = false;       ///< delete the run that `folder` holds; else a run there is refused
   double liveInterval = 0;      ///< [s wall], offer a Frame to onLiveFrame at most this often; 0: never
   double checkpointWallInterval =

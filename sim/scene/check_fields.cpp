@@ -62,6 +62,9 @@ void checkFields(const Scene& scene, FaultList& faults) {
     checkReferences(scene, field, path, "flows", FieldRole::flow, "flow", faults);
     checkReferences(scene, field, path, "of", FieldRole::drag, "drag", faults);
     const FieldKind* kind = findField(field.what.kind);
+    if (kind && kind->objection)
+      if (const std::string why = kind->objection(field.what.parameters, scene.domain); !why.empty())
+        faults.about(path, why);
     if (kind && kind->role == FieldRole::shield && (scene.domain.periodic[0] || scene.domain.periodic[1]))
       faults.about(path,
                    "counts grains below each other, which has no end where the domain is periodic along "

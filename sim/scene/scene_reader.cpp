@@ -4,6 +4,7 @@
 #include "sim/contact/law_registry.h"
 #include "sim/fields/field.h" // for the result of FieldKind::make
 #include "sim/fields/field_registry.h"
+#include "sim/fields/flow_file.h"
 #include "sim/grains/fill_registry.h"
 #include "sim/grains/size_distribution.h"
 #include "sim/scene/grain_rows.h"
@@ -174,6 +175,13 @@ private:
     readKeys(in, fieldKeys(), field);
     const FieldKind* kind = in.choose("kind", fieldKinds(), field.what);
     in.reportUnknown();
+    if (kind && field.what.parameters.has("file") && !faults_.has(path)) {
+      try {
+        field.what.parameters = flowFromFile(field.what.parameters, baseFolder_);
+      } catch (const InputError& problem) {
+        faults_.about(path, std::string("has no wind: ") + problem.what());
+      }
+    }
     if (kind && !faults_.has(path)) tryToMake(*kind, field.what, path);
   }
 

@@ -92,6 +92,9 @@ public:
 
 struct SolverOptions {
   int threads = 0; ///< 0: all cores
+  /// Frames tell what grains do to walls; else force, torque, work and wear of their walls are zero, and a
+  /// frame need not evaluate all forces where velocities do not ask for it.
+  bool wallLoads = true;
 };
 
 /// Refusals, each a sentence; empty when the solver can run the scene.

@@ -25,11 +25,13 @@ VortexTank tank() {
 }
 
 /// Grains on rings in the middle of each radial bin, 32 in each, at a height that depends on bin and grain.
-std::vector<Vec3> rings(const std::function<double(int bin, int grain)>& height) {
+/// `open`: the innermost ring is wider, about a core of 0.117 R.
+std::vector<Vec3> rings(const std::function<double(int bin, int grain)>& height, bool open = false) {
   std::vector<Vec3> x;
   for (int i = 0; i < n; ++i) {
     const int bin = i % bins;
-    const double rho = (bin + 0.5) * tankRadius / bins, angle = 2 * pi * (i / bins) / 32;
+    const double rho = open && bin == 0 ? 1.75 * r : (bin + 0.5) * tankRadius / bins,
+                 angle = 2 * pi * (i / bins) / 32;
     x.emplace_back(rho * std::cos(angle), rho * std::sin(angle), height(bin, i));
   }
   return x;
@@ -77,19 +79,20 @@ void require(const VortexMeasures& m, VortexState state) {
   CHECK(own(m) == state);
 }
 
-/// A flat bed in which `count` grains of the core rise by 0.05 r in each frame, and as many others fall.
-VortexMeasures spouting(int frames, int count, int pauseAt = -1) {
+/// A flat bed in which `count` grains of the core rise by 0.05 r in each frame, and as many others fall. Its
+/// middle is empty to 0.117 R, or closed.
+VortexMeasures spouting(int frames, int count, int pauseAt = -1, bool open = true) {
   std::vector<int> core; // within 3/4 R: bins 0 to 5
   for (int i = 0; i < n; ++i)
     if (i % bins < 6) core.push_back(i);
   std::vector<double> shift(n, 0.0);
-  return course(frames, [&, count, pauseAt](int k) {
+  return course(frames, [&, count, pauseAt, open](int k) {
     if (k != pauseAt && k > 0)
       for (int j = 0; j < count; ++j) {
         shift[core[j]] += k % 2 ? 0.05 * r : -0.05 * r;
         shift[core[count + j]] += k % 2 ? -0.05 * r : 0.05 * r;
       }
-    return rings([&](int bin, int i) { return flat(bin, i) + shift[i]; });
+    return rings([&](int bin, int i) { return flat(bin, i) + shift[i]; }, open);
   });
 }
 
@@ -155,6 +158,19 @@ TEST_CASE("rising grains in the core make a spout", "[vortex]") {
     require(*m, VortexState::largeSpout);
   require(chaos, VortexState::flat);
   require(few, VortexState::flat);
+  // A closed bed that hovers: its grains rise and fall as in a spout, but about no open core, and ours wants
+  // one.
+  const auto hovering = spouting(2600, 40, -1, false);
+  CHECK(listed(hovering) == VortexState::largeSpout);
+  CHECK(own(hovering) == VortexState::flat);
+  CHECK(own(spouting(2600, 20, -1, false)) == VortexState::flat);
+  VortexRules anyCore = ownVortexRules();
+  anyCore.spoutCore = 0;
+  CHECK(vortexVerdict(hovering, anyCore).state == VortexState::largeSpout);
+  const auto core = vortexVerdict(hovering, ownVortexRules()).evidence.back();
+  CHECK(core.rule == "open core");
+  CHECK_FALSE(core.holds);
+  CHECK(core.found == Approx(0.5 / bins)); // the innermost ring
   // 2000 frames running: one frame without ends the run of frames. Ours asks for nine in ten.
   const auto paused = spouting(3600, 20, 2000);
   CHECK(text(paused) == VortexState::flat);

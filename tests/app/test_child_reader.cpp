@@ -54,6 +54,33 @@ TEST_CASE("a mesh comes back from the child as it is in the file", "[readers]") 
   REQUIRE(mesh.triangles.size() == 2);
 }
 
+TEST_CASE("a wind on a grid comes back from the child, out of both forms of file", "[readers]") {
+  const test::TemporaryFolder folder("child-wind");
+  const std::string numbers = "0 0 0 1 0 0 0 2 0 1 2 0 0 0 3 1 0 3 0 2 3 1 2 3"; // u = x of 2 x 2 x 2 points
+  std::ofstream(folder / "a.vti")
+      << R"(<VTKFile type="ImageData" version="0.1" byte_order="LittleEndian"><ImageData WholeExtent="0 1 0 1 0 1" )"
+      << R"(Origin="0 0 0" Spacing="1 2 3"><Piece Extent="0 1 0 1 0 1"><PointData><DataArray type="Float64" Name="u" )"
+      << R"(NumberOfComponents="3" format="ascii">)" << numbers
+      << "</DataArray></PointData></Piece></ImageData></VTKFile>";
+  std::ofstream(folder / "a.vtk") << "# vtk DataFile Version 3.0\nwind\nASCII\nDATASET STRUCTURED_POINTS\n"
+                                     "DIMENSIONS 2 2 2\nORIGIN 0 0 0\nSPACING 1 2 3\nPOINT_DATA 8\n"
+                                     "VECTORS u double\n"
+                                  << numbers << "\n";
+  for (const char* name : {"a.vti", "a.vtk"}) {
+    const FrameField grid = vis::readVtiApart(folder / name, {}, SANDGLASS_PROGRAM);
+    CHECK(grid.points == std::array<int, 3>{2, 2, 2});
+    CHECK(grid.spacing == Vec3(1, 2, 3));
+    REQUIRE(grid.vectors.at("u").size() == 8);
+    for (int k = 0; k < 8; ++k)
+      CHECK(grid.vectors.at("u")[k] == Vec3(k % 2, k / 2 % 2 * 2, k / 4 * 3));
+  }
+  for (const char* name : {"a.vti", "a.vtk"}) {
+    const auto bad = folder / (std::string("bad-") + name);
+    std::ofstream(bad) << "noise";
+    CHECK_THROWS_WITH(vis::readVtiApart(bad, {}, SANDGLASS_PROGRAM), Catch::StartsWith(bad.string()));
+  }
+}
+
 TEST_CASE("garbage and torn files are refused by the child's sentence or for its end", "[readers]") {
   const test::TemporaryFolder folder("child-bad");
   for (int k = 0; k < 6; ++k) {

@@ -6,6 +6,7 @@
 #include "sim/io/run_folder.h"
 #include "sim/io/series.h"
 #include "sim/run/checkpoint_store.h"
+#include "tests/app/started_program.h"
 #include "tests/sim/frame_equality.h"
 #include "tests/sim/small_hopper.h"
 #include "tests/sim/temporary_folder.h"
@@ -14,16 +15,12 @@
 
 #include <chrono>
 #include <csignal>
-#include <fcntl.h>
 #include <fstream>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
 
 using namespace sandglass;
 using namespace sandglass::test;
-
-extern char** environ;
 
 namespace fs = std::filesystem;
 
@@ -31,21 +28,8 @@ namespace {
 
 /// Starts `sandglass run` and returns its process id.
 pid_t start(const fs::path& scene, const fs::path& folder, int threads) {
-  const std::vector<std::string> words{
-      SANDGLASS_PROGRAM, "run",      scene.string(), "-o",
-      folder.string(),   "--resume", "--threads",    std::to_string(threads)};
-  std::vector<char*> arguments;
-  for (const auto& word : words)
-    arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int fault = posix_spawn(&child, SANDGLASS_PROGRAM, &quiet, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&quiet);
-  REQUIRE(fault == 0);
-  return child;
+  return startProgram(
+      {"run", scene.string(), "-o", folder.string(), "--resume", "--threads", std::to_string(threads)});
 }
 
 std::string contentOf(const fs::path& file) {

@@ -5,6 +5,7 @@
 #include "sim/base/random.h"
 #include "sim/io/run_folder.h"
 #include "tests/app/program.h"
+#include "tests/app/started_program.h"
 #include "tests/sim/frame_equality.h"
 #include "tests/sim/small_hopper.h"
 #include "tests/sim/temporary_folder.h"
@@ -13,9 +14,7 @@
 
 #include <chrono>
 #include <csignal>
-#include <fcntl.h>
 #include <fstream>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
 
@@ -23,8 +22,6 @@ using namespace sandglass;
 using namespace sandglass::analysis;
 using namespace sandglass::test;
 using Catch::Contains;
-
-extern char** environ;
 
 namespace fs = std::filesystem;
 
@@ -99,21 +96,7 @@ std::string content(const fs::path& file) {
 }
 
 pid_t start(const fs::path& sweep, const fs::path& folder, int threads) {
-  const std::vector<std::string> words{SANDGLASS_PROGRAM, "sweep",     sweep.string(),         "-o",
-                                       folder.string(),   "--threads", std::to_string(threads)};
-  std::vector<char*> arguments;
-  for (const auto& word : words)
-    arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int fault = posix_spawn(&child, SANDGLASS_PROGRAM, &quiet, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&quiet);
-  REQUIRE(fault == 0);
-  return child;
+  return startProgram({"sweep", sweep.string(), "-o", folder.string(), "--threads", std::to_string(threads)});
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "vis/readers/child_reader.h"
 
 #include "sim/base/error.h"
+#include "vis/readers/vti_field.h"
 #include "vis/readers/vtk_frame.h"
 #include "vis/readers/vtp_mesh.h"
 
@@ -31,8 +32,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *meshWord = "--read-vtp-for-parent", *frameWord = "--read-vtk-frame-for-parent";
-constexpr char meshMark = 'M', frameMark = 'G', faultMark = 'F';
+constexpr const char *meshWord = "--read-vtp-for-parent", *frameWord = "--read-vtk-frame-for-parent",
+                     *flowWord = "--read-vti-for-parent";
+constexpr char meshMark = 'M', frameMark = 'G', flowMark = 'W', faultMark = 'F';
 
 void sendAll(const void* data, std::size_t size) {
   const char* at = static_cast<const char*>(data);
@@ -66,6 +68,22 @@ void answer(const RawFrame& frame) {
     sendAll(&length, sizeof length);
     sendAll(column.name.data(), length);
     sendAll(column.numbers.data(), column.numbers.size() * sizeof(double));
+  }
+}
+
+/// 'W', points, origin, spacing, number of arrays; for each the length of its name, the name and the vectors.
+void answer(const FrameField& field) {
+  const std::uint64_t arrays = field.vectors.size();
+  sendAll(&flowMark, 1);
+  sendAll(field.points.data(), sizeof field.points);
+  sendAll(field.origin.data(), sizeof field.origin);
+  sendAll(field.spacing.data(), sizeof field.spacing);
+  sendAll(&arrays, sizeof arrays);
+  for (const auto& [name, vectors] : field.vectors) {
+    const std::uint64_t length = name.size();
+    sendAll(&length, sizeof length);
+    sendAll(name.data(), length);
+    sendAll(vectors.data(), vectors.size() * sizeof(Vec3));
   }
 }
 
@@ -200,6 +218,33 @@ RawFrame checkedFrame(const fs::path& file, const std::string& said) {
   return frame;
 }
 
+FrameField checkedFlow(const fs::path& file, const std::string& said) {
+  Answer answer(file, std::string_view(said).substr(1));
+  const auto wrong = [&] { refuse(file, "what its reader sent back is no grid; check the file"); };
+  FrameField field;
+  field.points = answer.take<std::array<int, 3>>();
+  field.origin = answer.take<Vec3>();
+  field.spacing = answer.take<Vec3>();
+  double size = 1;
+  for (const int count : field.points) {
+    if (count < 1) wrong();
+    size *= count;
+  }
+  const auto arrays = answer.take<std::uint64_t>();
+  for (std::uint64_t a = 0; a < arrays; ++a) {
+    const auto length = answer.take<std::uint64_t>();
+    if (length > answer.left()) wrong();
+    std::string name(length, '\0');
+    answer.copy(name.data(), length);
+    if (size > static_cast<double>(answer.left() / sizeof(Vec3))) wrong();
+    std::vector<Vec3>& vectors = field.vectors[name];
+    vectors.resize(field.size());
+    answer.copy(vectors.data(), field.size() * sizeof(Vec3));
+  }
+  if (answer.left() > 0) wrong();
+  return field;
+}
+
 /// Starts a child with that word and hands back what it says after `mark`.
 std::string saidApart(const fs::path& file, const ReaderLimits& limits, const fs::path& program,
                       const char* word, char mark) {
@@ -228,8 +273,9 @@ std::string saidApart(const fs::path& file, const ReaderLimits& limits, const fs
 
 bool serveAsReader(int argc, char** argv, int& code) {
   const bool mesh = argc == 5 && std::strcmp(argv[1], meshWord) == 0,
-             frame = argc == 5 && std::strcmp(argv[1], frameWord) == 0;
-  if (!mesh && !frame) return false;
+             frame = argc == 5 && std::strcmp(argv[1], frameWord) == 0,
+             flow = argc == 5 && std::strcmp(argv[1], flowWord) == 0;
+  if (!mesh && !frame && !flow) return false;
   const auto limit = [](auto resource, const char* text) {
     const rlim_t value = std::strtoull(text, nullptr, 10);
     const rlimit both{value, value};
@@ -243,6 +289,8 @@ bool serveAsReader(int argc, char** argv, int& code) {
   try {
     if (mesh)
       answer(readVtpMesh(argv[2]));
+    else if (flow)
+      answer(readVtiField(argv[2]));
     else
       answer(readVtkFrame(argv[2]));
   } catch (const std::bad_alloc&) {
@@ -256,6 +304,10 @@ bool serveAsReader(int argc, char** argv, int& code) {
 
 TriangleMesh readVtpApart(const fs::path& file, const ReaderLimits& limits, const fs::path& program) {
   return checkedMesh(file, saidApart(file, limits, program, meshWord, meshMark));
+}
+
+FrameField readVtiApart(const fs::path& file, const ReaderLimits& limits, const fs::path& program) {
+  return checkedFlow(file, saidApart(file, limits, program, flowWord, flowMark));
 }
 
 RawFrame readVtkApart(const fs::path& file, const ReaderLimits& limits, const fs::path& program) {

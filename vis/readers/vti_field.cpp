@@ -1,7 +1,9 @@
 #include "vis/readers/vti_field.h"
 
 #include "sim/base/error.h"
+#include "sim/fields/flow_file.h"
 #include "vis/gl/vtk_messages.h"
+#include "vis/readers/child_reader.h"
 
 #include <fmt/format.h>
 #include <vtkDataArray.h>
@@ -10,6 +12,8 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
+#include <vtkStructuredPoints.h>
+#include <vtkStructuredPointsReader.h>
 #include <vtkXMLImageDataReader.h>
 
 namespace sandglass::vis {
@@ -20,14 +24,24 @@ FrameField readVtiField(const std::filesystem::path& file) {
   keepVtkMessages();
   takeVtkError();
   vtkNew<vtkXMLImageDataReader> reader;
-  if (!reader->CanReadFile(file.c_str()))
-    throw InputError(fmt::format("{}: byte 0: this is no VTK XML file of type ImageData, which a field is",
-                                 file.string()));
-  reader->SetFileName(file.c_str());
-  reader->Update();
+  vtkNew<vtkStructuredPointsReader> legacy;
+  const bool old = file.extension() == ".vtk";
+  legacy->SetFileName(file.c_str());
+  if (old ? legacy->IsFileStructuredPoints() == 0 : !reader->CanReadFile(file.c_str()))
+    throw InputError(fmt::format("{}: byte 0: this is no VTK {}, which a field is", file.string(),
+                                 old ? "legacy file of STRUCTURED_POINTS" : "XML file of type ImageData"));
+  if (old) {
+    legacy->ReadAllVectorsOn();
+    legacy->ReadAllScalarsOn();
+    legacy->Update();
+  } else {
+    reader->SetFileName(file.c_str());
+    reader->Update();
+  }
   if (const std::string error = takeVtkError(); !error.empty())
-    throw InputError(fmt::format("{}: it cannot be read as a VTI: {}", file.string(), error));
-  vtkImageData* image = reader->GetOutput();
+    throw InputError(fmt::format("{}: it cannot be read as {}: {}", file.string(),
+                                 old ? "structured points" : "a VTI", error));
+  vtkImageData* image = old ? legacy->GetOutput() : reader->GetOutput();
   FrameField field;
   field.name = file.stem().string();
   for (int k = 0; k < 3; ++k) {
@@ -62,6 +76,11 @@ FrameField readVtiField(const std::filesystem::path& file) {
     throw InputError(fmt::format(
         "{}: it holds no scalar or vector at its points, so there is nothing to draw", file.string()));
   return field;
+}
+
+void registerFlowReaders() {
+  for (const char* extension : {".vti", ".vtk"})
+    registerFlowReader(extension, [](const std::filesystem::path& file) { return readVtiApart(file); });
 }
 
 FrameField frameField(const analysis::Field& field) {

@@ -68,11 +68,8 @@ public:
     FieldBlock::Column scale;
     const double strength = factor * strength_;
     if (decay_ > 0.0) {
-      const double decay = decay_, reference = reference_;
-      const double nx = axis_.x(), ny = axis_.y(), nz = axis_.z();
-      SANDGLASS_GRAINS(i)
-      scale[i] = strength * b.exposure[i] *
-                 exponential(-decay * (nx * b.x[i] + ny * b.y[i] + nz * b.z[i] - reference));
+      const FieldBlock::Column& share = b.falloff(decay_, reference_, axis_);
+      SANDGLASS_GRAINS(i) scale[i] = strength * b.exposure[i] * share[i];
     } else {
       SANDGLASS_GRAINS(i) scale[i] = strength * b.exposure[i];
     }
@@ -98,6 +95,8 @@ private:
 
   template <bool componentwise, Acts acts> void act(FieldBlock& b, const FieldBlock::Column& scale) const {
     const double nx = axis_.x(), ny = axis_.y(), nz = axis_.z();
+    if constexpr (acts != Acts::all)
+      if (nx == 0.0 && ny == 0.0) return upright<componentwise, acts>(b, scale);
     FieldBlock::Column ux, uy, uz, qx, qy, qz; // relative velocity and acceleration, the parts that count
     SANDGLASS_GRAINS(i) {
       ux[i] = b.vx[i] - b.flowX[i];
@@ -128,12 +127,37 @@ private:
       SANDGLASS_GRAINS(i) speed[i] = std::sqrt(ux[i] * ux[i] + uy[i] * uy[i] + uz[i] * uz[i]);
       weigh(speed, b, scale, rest, pull);
     }
-    const bool upright = nx == 0.0 && ny == 0.0; // then some components have no part that counts
-    if (!(acts == Acts::along && upright)) {
-      slow(b.ax, qx, ux);
-      slow(b.ay, qy, uy);
+    slow(b.ax, qx, ux);
+    slow(b.ay, qy, uy);
+    slow(b.az, qz, uz);
+  }
+
+  /// Along or across an upright axis components count or do not, as they are.
+  template <bool componentwise, Acts acts> void upright(FieldBlock& b, const Column& scale) const {
+    Column speed, rest, pull;
+    const auto slow = [&](Column& a, const Column& v, const Column& flow) {
+      SANDGLASS_GRAINS(i) a[i] -= rest[i] * a[i] + pull[i] * (v[i] - flow[i]);
+    };
+    if constexpr (acts == Acts::along) {
+      SANDGLASS_GRAINS(i) speed[i] = std::abs(b.vz[i] - b.flowZ[i]);
+      weigh(speed, b, scale, rest, pull);
+      slow(b.az, b.vz, b.flowZ);
+    } else if constexpr (componentwise) {
+      SANDGLASS_GRAINS(i) speed[i] = std::abs(b.vx[i] - b.flowX[i]);
+      weigh(speed, b, scale, rest, pull);
+      slow(b.ax, b.vx, b.flowX);
+      SANDGLASS_GRAINS(i) speed[i] = std::abs(b.vy[i] - b.flowY[i]);
+      weigh(speed, b, scale, rest, pull);
+      slow(b.ay, b.vy, b.flowY);
+    } else {
+      SANDGLASS_GRAINS(i) {
+        const double x = b.vx[i] - b.flowX[i], y = b.vy[i] - b.flowY[i];
+        speed[i] = std::sqrt(x * x + y * y);
+      }
+      weigh(speed, b, scale, rest, pull);
+      slow(b.ax, b.vx, b.flowX);
+      slow(b.ay, b.vy, b.flowY);
     }
-    if (!(acts == Acts::across && upright)) slow(b.az, qz, uz);
   }
 
   /// The change of acceleration is -(rest a + pull u).

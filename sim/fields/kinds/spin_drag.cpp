@@ -31,19 +31,21 @@ public:
 
   void apply(FieldBlock& b, double factor) const override {
     const double given = factor * given_, stokes = factor * stokes_, rate = 2.5 * b.dt;
-    FieldBlock::Column q, share;
+    FieldBlock::Column q, share{};
     SANDGLASS_GRAINS(i) {
       const double r = b.radius[i];
       q[i] = (given + stokes * (r * r * r)) * rate * b.inverseMass[i] / (r * r);
-      // (1 - e^-q) / q by its series: to 1e-16 for small q, where the difference would lose digits
-      const double x = -q[i];
-      double sum = 1.0;
-      for (int k = 11; k >= 2; --k)
-        sum = 1.0 + sum * (x * inverses[k]);
-      share[i] = sum;
     }
+    if (!explicit_) SANDGLASS_GRAINS(i) {
+        // (1 - e^-q) / q by its series: to 1e-16 for small q, where the difference would lose digits
+        const double x = -q[i];
+        double sum = 1.0;
+        for (int k = 11; k >= 2; --k)
+          sum = 1.0 + sum * (x * inverses[k]);
+        share[i] = sum;
+      }
     bool far = false;
-    for (int i = 0; i < FieldBlock::capacity; ++i)
+    for (int i = 0; i < FieldBlock::capacity && !explicit_; ++i)
       far = far || q[i] > seriesEnd;
     if (far) SANDGLASS_GRAINS(i) {
         const double exact = (1.0 - exponential(-q[i])) / (q[i] > seriesEnd ? q[i] : 1.0);

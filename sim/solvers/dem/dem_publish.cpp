@@ -1,6 +1,7 @@
 // What the soft-sphere solver shows of itself: frames, energies, walls, and its state for checkpoints.
 
 #include "sim/base/error.h"
+#include "sim/base/tiny_numbers.h"
 #include "sim/solvers/dem/dem_solver.h"
 
 #include <fmt/format.h>
@@ -48,7 +49,7 @@ FramePtr DemSolver::frame() const {
     for (std::int32_t i : order)
       out.push_back(value(i));
   };
-  const FullStep& full = fullStep();
+  const FullStep& full = fullStep(wallLoads_ || wants(quantity::force));
   for (std::int32_t i : order) {
     frame->id.push_back(grains_.id[i]);
     frame->position.push_back(wrapped(grains_.place[i].vec()));
@@ -73,7 +74,7 @@ FramePtr DemSolver::frame() const {
             [&](std::int32_t i) { return time() - lives_.enteredAt(grains_.id[i]); });
   if (wants(quantity::life))
     scalars(quantity::life, [&](std::int32_t i) { return static_cast<double>(lives_.life(grains_.id[i])); });
-  frame->walls = walls();
+  frame->walls = wallsNow(wallLoads_);
   if (!scene_.output.contacts || stale_) return frame;
 
   pairForces_.visitContacts(dt_, [&](std::int64_t p, const ContactBlock& b, int c) {
@@ -122,7 +123,7 @@ FramePtr DemSolver::frame() const {
 Energies DemSolver::energies() const {
   Energies e;
   const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
-  const FullStep& full = fullStep();
+  const FullStep& full = fullStep(false);
   for (std::int32_t i : idOrder()) {
     if (frozen_.holds(grains_.species[i])) continue; // nothing can change what it has
     const double m = grains_.mass(i);
@@ -153,7 +154,7 @@ GrainSeed DemSolver::seedOf(std::int32_t i) const {
   s.species = grains_.species[i];
   s.radius = grains_.place[i].w;
   s.position = wrapped(grains_.place[i].vec());
-  const FullStep& full = fullStep();
+  const FullStep& full = fullStep(false);
   s.velocity = full.velocity[i];
   if (grains_.turning) s.spin = full.spin[i];
   s.life = lives_.life(s.id);
@@ -175,20 +176,24 @@ double DemSolver::greatestSpeed() const {
 }
 
 std::vector<FrameWall> DemSolver::walls() const {
-  const FullStep& full = fullStep(); // wall forces of this instant
+  return wallsNow(true);
+}
+
+std::vector<FrameWall> DemSolver::wallsNow(bool loads) const {
+  if (loads) fullStep(true); // wall forces of this instant
   std::vector<FrameWall> all;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    if (!stale_) wallContacts_.total(grains_, static_cast<int>(w), force, torque);
+    if (loads && !stale_) wallContacts_.total(grains_, static_cast<int>(w), force, torque);
     SolverWall wall = walls_[w];
-    wall.tally = full.tallies[w];
+    wall.tally = loads ? atFullStep_.tallies[w] : WallTally{};
     all.push_back(frameWall(wall, force, torque));
   }
   return all;
 }
 
 double DemSolver::wallWork() const {
-  const FullStep& full = fullStep();
+  const FullStep& full = fullStep(true);
   double sum = frozen_.any() ? frozen_.workWith(full.force, full.torque, step_ == 0 ? 0.0 : dt_) : 0.0;
   for (const WallTally& tally : full.tallies)
     sum += tally.work;
@@ -262,6 +267,7 @@ Solver::State DemSolver::save() {
 }
 
 void DemSolver::load(const State& s) {
+  const TinyNumbersAsZero tiny;
   std::vector<WallState> walls;
   get(s, "walls.state", walls);
   if (walls.size() != walls_.size())

@@ -1,6 +1,7 @@
 #include "sim/solvers/dem/dem_solver.h"
 
 #include "sim/base/error.h"
+#include "sim/base/tiny_numbers.h"
 #include "sim/grains/seeding.h"
 #include "sim/solvers/dem/mixed_checks.h"
 #include "sim/solvers/dem/step_rule.h"
@@ -34,6 +35,7 @@ LawStack stackWith(const Scene& scene, const std::vector<std::shared_ptr<const L
   LawStack stack(scene);
   for (const auto& law : added)
     stack.add(law);
+  if (readsOverlaps(scene)) stack.sumOverlaps();
   return stack;
 }
 
@@ -41,7 +43,8 @@ LawStack stackWith(const Scene& scene, const std::vector<std::shared_ptr<const L
 
 DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
                      const std::vector<std::shared_ptr<const Law>>& added)
-    : scene_(scene), laws_(stackWith(scene, added)), parallel_(options.threads),
+    : scene_(scene), wallLoads_(options.wallLoads), laws_(stackWith(scene, added)),
+      parallel_(options.threads),
       list_(scene.domain, laws_.historySize(), laws_.outputStride(), laws_.hasEvents()), pairForces_(laws_),
       wallContacts_(laws_), across_(laws_, scene.sector()), fields_(scene),
       loop_(grains_, list_, pairForces_, wallContacts_, across_, fields_, parallel_), frozen_(scene),
@@ -146,15 +149,21 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
   ++rebuilds_;
 }
 
-const DemSolver::FullStep& DemSolver::fullStep() const {
+const DemSolver::FullStep& DemSolver::fullStep(bool withForces) const {
   FullStep& full = atFullStep_;
-  if (full.valid) return full;
+  withForces = withForces || !scene_.accuracy.semiImplicit;
+  if (full.valid && (full.forcesValid || !withForces)) return full;
   if (stale_) return full; // changeAhead() and add() keep it
   const std::size_t n = grains_.size();
   full.velocity.resize(n);
   full.spin.resize(grains_.turning ? n : 0);
-  evaluate(full.force, full.torque);
-  for (std::size_t i = 0; i < n; ++i) {
+  if (withForces) evaluate(full.force, full.torque);
+  full.forcesValid = withForces;
+  for (std::size_t i = 0; i < n && scene_.accuracy.semiImplicit; ++i) {
+    full.velocity[i] = grains_.motion[i].vec();
+    if (grains_.turning) full.spin[i] = grains_.spin(i);
+  }
+  for (std::size_t i = 0; i < n && !scene_.accuracy.semiImplicit; ++i) {
     const double kick = halfStep() * grains_.motion[i].w;
     full.velocity[i] = grains_.motion[i].vec() + kick * full.force[i].vec() + halfStep() * gravity_;
     if (grains_.turning)
@@ -170,6 +179,7 @@ const DemSolver::FullStep& DemSolver::fullStep() const {
 }
 
 void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) const {
+  const TinyNumbersAsZero tiny;
   // What is evaluated here is evaluated once more by the next step: histories stay as they are.
   const auto history = wallContacts_.historyArray();
   const auto feature = wallContacts_.featureArray();
@@ -193,12 +203,13 @@ void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) co
 
 void DemSolver::changeAhead() {
   if (stale_) return;
-  fullStep(); // still known now
+  fullStep(true); // still known now
   stale_ = true;
 }
 
 void DemSolver::prepare() {
   if (!stale_) return;
+  const TinyNumbersAsZero tiny;
   rebuild();
   stale_ = false;
   std::sort(newcomers_.begin(), newcomers_.end());
@@ -232,6 +243,7 @@ void DemSolver::prepare() {
 }
 
 void DemSolver::advance(std::int64_t steps) {
+  const TinyNumbersAsZero tiny;
   prepare();
   pairForces_.refresh();
   placeWalls(walls_, time(), dt_);
@@ -281,7 +293,20 @@ void DemSolver::stepOnce() {
 }
 
 std::vector<std::int32_t> DemSolver::idOrder() const {
-  std::vector<std::int32_t> order(grains_.size());
+  std::vector<std::int32_t> order;
+  if (grains_.size() == 0) return order;
+  // Most often ids are nearly without gaps: each has a place of its own.
+  const auto [least, greatest] = std::minmax_element(grains_.id.begin(), grains_.id.end());
+  const auto range = static_cast<std::uint64_t>(*greatest - *least) + 1;
+  if (range <= 4 * grains_.size()) {
+    std::vector<std::int32_t> at(range, -1);
+    for (std::size_t i = 0; i < grains_.size(); ++i)
+      at[grains_.id[i] - *least] = static_cast<std::int32_t>(i);
+    order.reserve(grains_.size());
+    std::copy_if(at.begin(), at.end(), std::back_inserter(order), [](std::int32_t i) { return i >= 0; });
+    return order;
+  }
+  order.resize(grains_.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](std::int32_t a, std::int32_t b) { return grains_.id[a] < grains_.id[b]; });

@@ -71,7 +71,8 @@ public:
 private:
   /// Velocities at the full step, and the forces there.
   struct FullStep {
-    bool valid = false;
+    bool valid = false;              ///< velocities and spins
+    bool forcesValid = false;        ///< the rest
     std::vector<Quad> force, torque; ///< of contacts and fields
     std::vector<Vec3> velocity, spin;
     std::vector<WallTally> tallies; ///< of the walls, with what the forces of this instant add
@@ -81,7 +82,9 @@ private:
   void rebuild(const std::vector<std::uint8_t>& drop = {});
   void prepare();     ///< fresh list, newcomers half a step back, after grains or walls have changed
   void changeAhead(); ///< before grains or walls change: keeps the full step as it is, `stale_` from here on
-  const FullStep& fullStep() const;
+  /// With semi-implicit steps velocities in store are those of the full step, and forces need not be
+  /// evaluated.
+  const FullStep& fullStep(bool withForces) const;
   void evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) const;
   void stepOnce();
   void applyEvents(std::vector<PairEvent>& events);
@@ -98,7 +101,10 @@ private:
   GrainSeed seedOf(std::int32_t i) const;
   Vec3 wrapped(Vec3 x) const;
 
+  std::vector<FrameWall> wallsNow(bool loads) const;
+
   Scene scene_;
+  bool wallLoads_; ///< in frames
   LawStack laws_;
   mutable Parallel parallel_;
   GrainStore grains_;

@@ -12,6 +12,10 @@
 namespace sandglass {
 
 void checkMixedPrecision(const Scene& scene, const LawStack& laws) {
+  if (laws.sumsOverlaps())
+    throw InputError(
+        "precision = \"mixed\" is not possible with a field that sums overlaps (overlap_lift); use "
+        "precision = \"double\"");
   double smallest = 1e300, largest = 0.0;
   for (const Species& s : scene.species) {
     const SizeRange range = sizeRange(scene, s);

@@ -6,6 +6,7 @@
 #include "analysis/sweep/sweep_table.h"
 #include "tests/validate/verdicts.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,9 @@ std::string judgeCoupled(const analysis::SweepTable& table, Report& report);
 std::string judgeDrags(const analysis::SweepTable& table, Report& report);
 std::string judgeVolume(const analysis::SweepTable& table, Report& report);
 
-/// The sample vortex_paraboloid, no sweep.
-std::string judgeParaboloid(Report& report);
+// Without a sweep.
+std::string judgeContacts(Report& report);   ///< the sample vortex_tank as the source has it
+std::string judgeParaboloid(Report& report); ///< the sample vortex_paraboloid
 
 /// Runs of a sweep by the values of its axes, seeds together.
 class Cells {
@@ -51,6 +53,11 @@ private:
   const analysis::SweepTable& table_;
   std::vector<analysis::SweepRow> rows_;
 };
+
+/// Where the empty core first reaches a third of the tank, between the `ratios` on both sides, among runs
+/// with these values; NaN: nowhere.
+double coreBorder(const Cells& cells, std::span<const double> ratios,
+                  const std::vector<std::pair<std::string, double>>& values);
 
 /// Half width of the 95 % interval of the mean (Student's t); 0 for fewer than two.
 double halfWidth(const std::vector<double>& values);

@@ -1,6 +1,5 @@
+#include "analysis/statistics.h"
 #include "tests/validate/vortex/cases.h"
-
-#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -59,16 +58,25 @@ std::string Cells::commonestText(const std::vector<const SweepRow*>& rows, const
   return best;
 }
 
+double coreBorder(const Cells& cells, std::span<const double> ratios,
+                  const std::vector<std::pair<std::string, double>>& values) {
+  double before = 0, core = 0;
+  for (const double ratio : ratios) {
+    auto here = values;
+    here.emplace_back("ratio", ratio);
+    const double now = cells.mean(cells.at(here), "core");
+    if (now >= 1.0 / 3)
+      return before == 0 ? ratio : before + (ratio - before) * (1.0 / 3 - core) / (now - core);
+    before = ratio;
+    core = now;
+  }
+  return std::nan("");
+}
+
 double halfWidth(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
   if (n < 2) return 0;
-  double sum = 0, squares = 0;
-  for (const double v : values)
-    sum += v;
-  for (const double v : values)
-    squares += (v - sum / n) * (v - sum / n);
-  const boost::math::students_t law(n - 1);
-  return boost::math::quantile(law, 0.975) * std::sqrt(squares / (n - 1) / n);
+  return analysis::studentFactor(0.95, n - 1) * std::sqrt(analysis::variance(values) / n);
 }
 
 } // namespace sandglass::validate

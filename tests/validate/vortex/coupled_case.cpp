@@ -14,19 +14,6 @@ namespace {
 constexpr double ratios[] = {0.5, 0.75, 1, 1.25, 1.5, 2};
 constexpr const char* source = "re-run of Rice's listing, coupled";
 
-/// Where the empty core first reaches a third of the tank, between the ratios on both sides.
-double coreBorder(const Cells& cells, double radius, const char* axis) {
-  double before = 0, core = 0;
-  for (const double ratio : ratios) {
-    const double here = cells.mean(cells.at({{"r", radius}, {axis, ratio}}), "core");
-    if (here >= 1.0 / 3)
-      return before == 0 ? ratio : before + (ratio - before) * (1.0 / 3 - core) / (here - core);
-    before = ratio;
-    core = here;
-  }
-  return std::nan("");
-}
-
 } // namespace
 
 std::string judgeCoupled(const analysis::SweepTable& table, Report& report) {
@@ -52,7 +39,7 @@ std::string judgeCoupled(const analysis::SweepTable& table, Report& report) {
       page += fmt::format("; {:.2f} |", cells.mean(cell, "core"));
     }
     page += '\n';
-    const double border = coreBorder(cells, radius, "ratio");
+    const double border = coreBorder(cells, ratios, {{"r", radius}});
     lowBorder = std::min(lowBorder, border);
     highBorder = std::max(highBorder, border);
     report.between("coupled",

@@ -18,19 +18,6 @@ constexpr double radii[] = {2, 3, 4, 5, 6};
 constexpr const char* names[] = {"linear", "quadratic", "both"};
 constexpr const char* source = "Rice 2012, chapter 4, qualitatively";
 
-double border(const Cells& cells, double radius, int generation) {
-  double before = 0, core = 0;
-  for (const double ratio : ratios) {
-    const double here = cells.mean(
-        cells.at({{"r", radius}, {"ratio", ratio}, {"generation", static_cast<double>(generation)}}), "core");
-    if (here >= 1.0 / 3)
-      return before == 0 ? ratio : before + (ratio - before) * (1.0 / 3 - core) / (here - core);
-    before = ratio;
-    core = here;
-  }
-  return std::nan("");
-}
-
 } // namespace
 
 std::string judgeDrags(const analysis::SweepTable& table, Report& report) {
@@ -47,7 +34,7 @@ std::string judgeDrags(const analysis::SweepTable& table, Report& report) {
     page += fmt::format("| {} | {:.2f} |", r, scaled);
     std::string times;
     for (int g = 1; g <= 3; ++g) {
-      const double at = border(cells, r, g);
+      const double at = coreBorder(cells, ratios, {{"r", r}, {"generation", static_cast<double>(g)}});
       page += fmt::format(" {:.2f} |", at);
       std::vector<const analysis::SweepRow*> some =
           cells.at({{"r", r}, {"generation", static_cast<double>(g)}});

@@ -77,7 +77,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> names;
   bool quick = false, judgeOnly = false;
   app.add_option("folder", folder, "where results go")->required();
-  app.add_option("--case", names, "only these cases: speeds, grid, coupled, drags, volume, paraboloid");
+  app.add_option("--case", names,
+                 "only these cases: speeds, grid, coupled, drags, volume, contacts, paraboloid");
   app.add_option("--work", work, "where the tables of the sweeps are kept");
   app.add_flag("--quick", quick, "runs of a second: shows that everything works");
   app.add_flag("--judge", judgeOnly, "run nothing, judge the runs that are there");
@@ -93,9 +94,12 @@ int main(int argc, char** argv) {
       fs::create_directories(csv.parent_path());
       std::ofstream(csv) << table.csv();
     }
-    const bool wanted = names.empty() || std::find(names.begin(), names.end(), "paraboloid") != names.end();
-    if (wanted && !quick && !judgeOnly)
-      pages += fmt::format("\n## A turning bed\n\n{}\n", judgeParaboloid(report));
+    const auto wanted = [&](const char* name) {
+      return !quick && !judgeOnly &&
+             (names.empty() || std::find(names.begin(), names.end(), name) != names.end());
+    };
+    if (wanted("contacts")) pages += fmt::format("\n## Contacts\n\n{}\n", judgeContacts(report));
+    if (wanted("paraboloid")) pages += fmt::format("\n## A turning bed\n\n{}\n", judgeParaboloid(report));
     if (quick)
       for (Row& row : report.rows)
         row.skipped = "a quick look";
