@@ -73,7 +73,7 @@ ContactCounts contactCounts(const Frame& frame, double gap, int least, bool agai
     counts.rattler[i] = 1;
     for (const int j : partners[i])
       if (j >= 0 && !counts.rattler[static_cast<std::size_t>(j)] &&
-          --left[static_cast<std::size_t>(j)] < least)
+          --left[static_cast<std::size_t>(j)] < least && again)
         loose.push_back(static_cast<std::size_t>(j));
   }
   for (std::size_t i = 0; i < left.size(); ++i)

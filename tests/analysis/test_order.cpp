@@ -170,6 +170,24 @@ TEST_CASE("contacts, rattlers and chains of them", "[order]") {
   CHECK(once.mechanical[2] == once.contacts[2] - 1);
 }
 
+TEST_CASE("rattlers are counted once, or again and again", "[order]") {
+  // A cube of 4 x 4 x 4 touching grains without periods: its 8 corners touch 3 others, its 24 edge grains 4,
+  // its 24 face grains 5, its 8 inner ones 6.
+  Frame frame = simpleCubicFrame();
+  frame.domain.periodic = {false, false, false};
+  const auto rattlers = [](const ContactCounts& c) {
+    return std::count(c.rattler.begin(), c.rattler.end(), 1);
+  };
+  const ContactCounts once = contactCounts(frame, 1e-6, 4);
+  CHECK(rattlers(once) == 8);
+  // An edge grain touches one corner: 4 - 1. Nobody else does.
+  CHECK(std::count(once.mechanical.begin(), once.mechanical.end(), 3) == 24);
+  CHECK(std::count(once.mechanical.begin(), once.mechanical.end(), 5) == 24);
+  CHECK(std::count(once.mechanical.begin(), once.mechanical.end(), 6) == 8);
+  // Without corners the edges have 3, without edges the faces 5 - 2, without faces the inner ones 3.
+  CHECK(rattlers(contactCounts(frame, 1e-6, 4, true)) == 64);
+}
+
 TEST_CASE("coordination numbers of a crystal by every definition", "[order]") {
   const AnalysisKind& kind = analysisKind("coordination");
   const Results r = analyze(kind, defaultKnobs(kind), {}, {std::make_shared<Frame>(faceCentredFrame(5))});
