@@ -13,14 +13,6 @@ namespace sandglass::analysis {
 
 namespace {
 
-const std::vector<double>& column(const SeriesColumns& rows, const std::string& name,
-                                  const std::string& source) {
-  const auto it = rows.find(name);
-  if (it == rows.end())
-    throw InputError(fmt::format("{}: there is no column '{}'; give the outlet record = true", source, name));
-  return it->second.value;
-}
-
 /// Diameter between small and large grains; 0 where all are about one size.
 double border(const std::vector<double>& diameters) {
   const auto [least, most] = std::minmax_element(diameters.begin(), diameters.end());
@@ -33,11 +25,12 @@ struct Leaving {
 };
 
 Leaving leaving(const SeriesColumns& rows, const OutletFrame& outlet, const std::string& source) {
-  const auto &x = column(rows, "x", source), &y = column(rows, "y", source), &z = column(rows, "z", source);
-  const auto &vx = column(rows, "vx", source), &vy = column(rows, "vy", source),
-             &vz = column(rows, "vz", source);
+  const auto &x = recordedColumn(rows, "x", source), &y = recordedColumn(rows, "y", source),
+             &z = recordedColumn(rows, "z", source);
+  const auto &vx = recordedColumn(rows, "vx", source), &vy = recordedColumn(rows, "vy", source),
+             &vz = recordedColumn(rows, "vz", source);
   Leaving all;
-  all.diameter = column(rows, "diameter", source);
+  all.diameter = recordedColumn(rows, "diameter", source);
   if (x.empty())
     throw InputError(fmt::format("{}: no grain has left, so nothing is known of the outlet", source));
   const bool slot = outlet.across.squaredNorm() > 0.0;
@@ -131,7 +124,8 @@ Curve outletVelocities(const SeriesColumns& rows, const OutletFrame& outlet, con
 Curve dischargeSegregation(const SeriesColumns& rows, const std::vector<double>& density,
                            const std::string& source) {
   constexpr int samples = 20;
-  const auto &diameter = column(rows, "diameter", source), &species = column(rows, "species", source);
+  const auto &diameter = recordedColumn(rows, "diameter", source),
+             &species = recordedColumn(rows, "species", source);
   if (diameter.size() < 100)
     throw InputError(fmt::format("{}: {} grains have left; segregation of the discharge needs 100 or more",
                                  source, diameter.size()));

@@ -62,7 +62,7 @@ const std::vector<AnalysisKind>& analysisKinds() {
   static const std::vector<AnalysisKind> kinds{
       pairCorrelationKind(), bondAngleKind(), voidsKind(),  voronoiKind(), orderKind(),
       coordinationKind(),    stateKind(),     fieldsKind(), motionKind(),  mixingKind(),
-      clumpsKind(),          forcesKind(),    vortexKind(),
+      clumpsKind(),          forcesKind(), surfaceAngleKind(),    vortexKind(),
   };
   return kinds;
 }

@@ -12,14 +12,8 @@
 namespace sandglass::analysis {
 
 Curve residenceTimes(const SeriesColumns& discharged, int bins, const std::string& source) {
-  const auto column = [&](const char* name) -> const std::vector<double>& {
-    const auto it = discharged.find(name);
-    if (it == discharged.end())
-      throw InputError(
-          fmt::format("{}: there is no column '{}'; give the outlet record = true", source, name));
-    return it->second.value;
-  };
-  const auto &all = column("residence_time"), &life = column("life");
+  const auto &all = recordedColumn(discharged, "residence_time", source),
+             &life = recordedColumn(discharged, "life", source);
   const bool cameBack = std::any_of(life.begin(), life.end(), [](double l) { return l > 0; });
   std::vector<double> times;
   for (std::size_t i = 0; i < all.size() && i < life.size(); ++i)

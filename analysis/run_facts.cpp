@@ -28,6 +28,8 @@ RunFacts factsOf(const Scene& scene) {
     if (wall.shape.kind == "wedge") {
       facts.shape = OutletShape::slot;
       facts.outlet = p.number("outlet");
+      facts.halfAngle = p.number("half_angle");
+      facts.outletCentre = p.vector("centre");
       const Vec3 up = p.vector("up").normalized(), along = p.vector("along");
       facts.slot = Slot{p.vector("centre"), up.cross((along - along.dot(up) * up).normalized()), up,
                         p.number("outlet"), p.number("width")};
@@ -35,6 +37,8 @@ RunFacts factsOf(const Scene& scene) {
     } else if (wall.shape.kind == "cone_hopper") {
       facts.shape = OutletShape::circle;
       facts.outlet = p.number("outlet");
+      facts.halfAngle = p.number("half_angle");
+      facts.outletCentre = p.vector("base");
     }
   }
   facts.sector = scene.sector();

@@ -25,6 +25,8 @@ struct RunFacts {
   std::vector<std::string> gates;   ///< walls that a stage removes
   std::optional<OutletShape> shape; ///< of the outlet of a wedge or cone hopper
   double outlet = 0;                ///< its width or diameter [m]
+  double halfAngle = 0;             ///< of it from the vertical [rad]
+  std::optional<Vec3> outletCentre; ///< of it [m]
   std::optional<Slot> slot;         ///< of the first wedge
   std::optional<double> slotDepth;  ///< [m], of a slot along a periodic axis
   Sector sector;                    ///< of a wedge; the whole circle without

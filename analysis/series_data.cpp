@@ -20,6 +20,14 @@ std::string known(const SeriesColumns& columns) {
 
 } // namespace
 
+const std::vector<double>& recordedColumn(const SeriesColumns& columns, const std::string& name,
+                                          const std::string& source) {
+  const auto it = columns.find(name);
+  if (it == columns.end())
+    throw InputError(fmt::format("{}: there is no column '{}'; give the outlet record = true", source, name));
+  return it->second.value;
+}
+
 DischargeData dischargeOf(const SeriesColumns& columns, const std::string& probe, const std::string& source) {
   const auto it = columns.find(probe + ".mass");
   if (it == columns.end())

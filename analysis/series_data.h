@@ -20,6 +20,10 @@ DischargeData dischargeOf(const SeriesColumns& columns, const std::string& probe
 /// alone, of spheres of `density` [kg/m^3] (0: unknown). Throws InputError when there is neither.
 DischargeData dischargeOf(const FrameSource& frames, double density = 0);
 
+/// What an outlet recorded (discharged.csv), by its name. Throws InputError when the column is not there.
+const std::vector<double>& recordedColumn(const SeriesColumns& columns, const std::string& name,
+                                          const std::string& source);
+
 /// The energies that an energies probe saw, one line each. Throws InputError when it is not among the
 /// columns.
 Curve energyCurve(const SeriesColumns& columns, const std::string& probe, const std::string& source);

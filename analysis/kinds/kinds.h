@@ -17,6 +17,7 @@ AnalysisKind motionKind();
 AnalysisKind mixingKind();
 AnalysisKind clumpsKind();
 AnalysisKind forcesKind();
+AnalysisKind surfaceAngleKind();
 AnalysisKind vortexKind();
 
 } // namespace sandglass::analysis

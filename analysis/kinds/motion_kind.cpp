@@ -2,10 +2,13 @@
 //
 // Displacements are summed from Frame to Frame by the nearest image, so that grains must move by less than
 // half a period between them. The mean displacement of all grains is taken away (knob `drift`). D from the
-// slope of the later half of the curve: <r^2> = 6 D t. C(r) = <v_i . v_j> / <v^2> over pairs at distance r, v
-// less the mean of all (Rycroft 2007).
+// slope of the later half of the curve: <r^2> = 6 D t. Where up is known and the grains sink, the diffusion
+// length b of a flow: <s^2> = 2 b h for the displacement s along each level direction, less the mean, over
+// the mean fall h (Rycroft 2007). C(r) = <v_i . v_j> / <v^2> over pairs at distance r, v less the mean of all
+// (Rycroft 2007).
 
 #include "analysis/cell_grid.h"
+#include "analysis/free_surface.h"
 #include "analysis/grain_sizes.h"
 #include "analysis/kinds/kinds.h"
 #include "analysis/kinds/knob_specs.h"
@@ -52,6 +55,8 @@ public:
       now.path.emplace(frame.id[i], path);
       place.emplace(frame.id[i], frame.position[i]);
     }
+    now.drift =
+        frames_.empty() || moved == 0 ? Vec3(Vec3::Zero()) : Vec3(frames_.back().drift + drift / moved);
     if (moved > 0 && knobs_.boolean("drift"))
       for (auto& [id, path] : now.path)
         path -= drift / moved;
@@ -123,6 +128,8 @@ public:
       c.series.push_back(std::move(s));
       results.curves.push_back(std::move(c));
     }
+    addDiffusionLength(results, sentence);
+    if (sentence.ends_with(',')) sentence.pop_back();
     results.sentences.push_back(sentence);
     return results;
   }
@@ -131,7 +138,52 @@ private:
   struct Snapshot {
     double time;
     std::unordered_map<std::int64_t, Vec3> path;
+    Vec3 drift = Vec3::Zero(); ///< mean displacement since the first
   };
+
+  /// Spread along the level directions against the mean fall; nothing where the grains do not sink.
+  void addDiffusionLength(Results& results, std::string& sentence) const {
+    if (!context_.facts.up) return;
+    const UpFrame axes(*context_.facts.up);
+    const double d = context_.diameter;
+    Curve curve;
+    curve.name = "diffusion_length";
+    curve.title = "Spread of falling grains";
+    curve.x = {"mean fall / d", ""};
+    curve.y = {"<s^2> / d^2", ""};
+    curve.frames = frames_.size();
+    for (const auto& [name, axis] :
+         {std::pair("first level direction", axes.e1), {"second level direction", axes.e2}}) {
+      Series series{fmt::format("{} ({:.3g} {:.3g} {:.3g})", name, axis.x(), axis.y(), axis.z()), {}, {}, {}};
+      for (std::size_t f = 1; f < frames_.size(); ++f) {
+        double sum = 0, squares = 0, n = 0;
+        for (const auto& [id, path] : frames_[f].path)
+          if (const auto it = frames_[0].path.find(id); it != frames_[0].path.end()) {
+            const double s = axis.dot(path - it->second);
+            sum += s, squares += s * s, n += 1;
+          }
+        const double fall = -axes.up.dot(frames_[f].drift);
+        if (n < 2 || !(fall > 0)) continue;
+        series.x.push_back(fall / d);
+        series.y.push_back((squares / n - sum * sum / (n * n)) / (d * d));
+      }
+      constexpr double leastFall = 1; // diameters; less is rattling in the cage
+      if (series.x.size() < 4 || series.x.back() < leastFall) continue;
+      const std::size_t half = series.x.size() / 2;
+      const Line line = fitLine(std::span(series.x).subspan(half), std::span(series.y).subspan(half));
+      const std::string key = axis == axes.e1 ? "b_first" : "b_second";
+      curve.numbers[key] = line.slope / 2;
+      curve.numbers[key + "_error"] = line.slopeError / 2;
+      sentence += fmt::format(" b = {:.3g} +- {:.1g} d along ({:.3g} {:.3g} {:.3g}),", line.slope / 2,
+                              line.slopeError / 2, axis.x(), axis.y(), axis.z());
+      curve.series.push_back(std::move(series));
+    }
+    if (curve.series.empty()) return;
+    curve.definition =
+        "variance of the displacement from the first frame over the grains, against their mean fall; "
+        "b: slope of the later half over 2, in diameters";
+    results.curves.push_back(std::move(curve));
+  }
 
   void correlate(const Frame& frame) {
     const auto& v = frame.vector(quantity::velocity);
@@ -171,7 +223,8 @@ private:
 AnalysisKind motionKind() {
   return {.name = "motion",
           .title = "Displacements and velocity correlation",
-          .description = "mean squared displacement, diffusion, correlation of velocities in space",
+          .description = "mean squared displacement, diffusion, diffusion length of a flow, correlation of "
+                         "velocities in space",
           .source = "Rycroft 2007",
           .needs = {.quantities = {quantity::radius}, .persistentIds = true, .grains = 2, .frames = 2},
           .knobs = {switchKnob("drift", true, "whether the mean displacement is taken away"),

@@ -2,6 +2,8 @@
 
 #include "analysis/beverloo.h"
 #include "analysis/discharge.h"
+#include "analysis/fill_height.h"
+#include "analysis/hopper_angle.h"
 #include "analysis/packing.h"
 #include "analysis/series_data.h"
 #include "analysis/whole_circle.h"
@@ -21,6 +23,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numbers>
 
 namespace sandglass::cli {
 
@@ -61,17 +64,18 @@ void analyzePacking(const Source& source, const AnalyzeOptions& options, ResultF
 }
 
 /// From the flow_rate probe where there is one, else from the masses of the frames.
-std::pair<DischargeFit, Curve> dischargeFor(const Source& source, const AnalyzeOptions& options) {
+DischargeData dischargeDataOf(const Source& source, const AnalyzeOptions& options) {
   const fs::path series = source.path / "series.csv";
   const std::string probe = options.probe.empty() ? source.facts.flowProbe : options.probe;
-  DischargeData data;
-  if (!probe.empty() && fs::exists(series))
-    data = dischargeOf(readSeries(series), probe, series.string());
-  else if (!options.probe.empty())
+  if (!probe.empty() && fs::exists(series)) return dischargeOf(readSeries(series), probe, series.string());
+  if (!options.probe.empty())
     throw InputError(
         fmt::format("{}: there is no series.csv with the probe '{}'", source.path.string(), probe));
-  else
-    data = dischargeOf(*source.frames, source.facts.grainDensity);
+  return dischargeOf(*source.frames, source.facts.grainDensity);
+}
+
+std::pair<DischargeFit, Curve> dischargeFor(const Source& source, const AnalyzeOptions& options) {
+  const DischargeData data = dischargeDataOf(source, options);
   DischargeOptions o;
   if (!options.shares.empty()) o.shares = shareRange(options.shares);
   o.depth =
@@ -101,9 +105,34 @@ void compareWithBeverloo(const Source& source, const AnalyzeOptions& options, Cu
                           : circularRate(rho, source.facts.gravity, source.facts.outlet, d);
   curve.numbers["beverloo_rate"] = law;
   curve.numbers["beverloo_ratio"] = curve.numbers.at("rate") / law;
+  // Both corrections are printed: they disagree below 45 degrees.
+  const double angle = source.facts.halfAngle, stagnant = std::numbers::pi / 4;
+  curve.numbers["brown_richards_factor"] = brownRichards(angle, *source.facts.shape);
+  curve.numbers["rose_tanaka_factor"] = roseTanaka(angle, stagnant);
   fmt::print("{}  Beverloo's law (k = 1.5, C = {}, flowing density {:.5g} kg/m^3): {:.4g} kg/s; the run has "
-             "{:.3f} of it\n",
-             source.prefix, slot ? 1.03 : 0.58, rho, law, curve.numbers.at("beverloo_ratio"));
+             "{:.3f} of it; the half-angle of {:.3g} deg is to give {:.3f} (Brown & Richards) or {:.3f} (Rose & Tanaka)\n",
+             source.prefix, slot ? 1.03 : 0.58, rho, law, curve.numbers.at("beverloo_ratio"),
+             angle * 180 / std::numbers::pi, curve.numbers.at("brown_richards_factor"),
+             curve.numbers.at("rose_tanaka_factor"));
+}
+
+/// Where the scene says where the outlet is and there are frames enough.
+void writeRateByFillHeight(const Source& source, const AnalyzeOptions& options, ResultFiles& files) {
+  if (!source.facts.up || !source.facts.outletCentre) return;
+  const FramePtr first = source.frames->load(0);
+  const double d = diameterFor(options, *source.frames->load(settledFrame(source)));
+  std::vector<FillSample> samples;
+  for (std::size_t f = 0; f < source.frames->size(); ++f) {
+    const FramePtr frame = source.frames->load(f);
+    samples.push_back({frame->time, fillHeight(*frame, *source.facts.up, *source.facts.outletCentre, d)});
+  }
+  try {
+    Curve curve = rateByFillHeight(dischargeDataOf(source, options), samples, source.facts.outlet);
+    stamp(curve, source, *first);
+    files.write(curve, source.prefix);
+  } catch (const InputError& e) {
+    fmt::print("{}{}\n", source.prefix, e.what());
+  }
 }
 
 void analyzeDischarge(const Source& source, const AnalyzeOptions& options, ResultFiles& files) {
@@ -120,6 +149,7 @@ void analyzeDischarge(const Source& source, const AnalyzeOptions& options, Resul
   compareWithBeverloo(source, options, curve);
   stamp(curve, source, *source.frames->load(0));
   files.write(curve, source.prefix);
+  writeRateByFillHeight(source, options, files);
 }
 
 void analyzeEnergies(const Source& source, const AnalyzeOptions&, ResultFiles& files) {

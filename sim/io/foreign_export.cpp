@@ -1,13 +1,10 @@
 #include "sim/io/foreign_export.h"
 
 #include "sim/base/error.h"
-#include "sim/io/atomic_file.h"
+#include "sim/io/text_frames.h"
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <functional>
 #include <iterator>
 
@@ -89,22 +86,7 @@ std::string speciesName(const Frame& frame, std::size_t species) {
 }
 
 /// Writes frame by frame, so that a long run needs the memory of one.
-void writeFrames(FrameSource& frames, std::size_t first, std::size_t last, const std::filesystem::path& file,
-                 const std::function<void(const Frame&, std::string&)>& write) {
-  std::ofstream out(temporaryName(file), std::ios::binary | std::ios::trunc);
-  for (std::size_t i = first; i < last; ++i) {
-    std::string text;
-    write(*frames.load(i), text);
-    out << text;
-  }
-  out.close();
-  if (!out)
-    throw RunError(fmt::format("{}: cannot be written ({}); check the folder and the free space",
-                               file.string(), std::strerror(errno)));
-  publish(file);
-}
-
-void writeDump(const Frame& frame, std::string& text) {
+void writeDump(const Frame& frame, std::size_t, std::string& text) {
   auto to = std::back_inserter(text);
   const Domain& d = frame.domain;
   const auto flag = [&](std::size_t k) { return d.periodic[k] ? "pp" : "ff"; };
@@ -150,7 +132,7 @@ void writeDump(const Frame& frame, std::string& text) {
   }
 }
 
-void writeXyz(const Frame& frame, std::string& text) {
+void writeXyz(const Frame& frame, std::size_t, std::string& text) {
   auto to = std::back_inserter(text);
   const Domain& d = frame.domain;
   const Vec3 edge = d.upper - d.lower;
@@ -190,12 +172,12 @@ void writeXyz(const Frame& frame, std::string& text) {
 
 void exportLammpsDump(FrameSource& frames, std::size_t first, std::size_t last,
                       const std::filesystem::path& file) {
-  writeFrames(frames, first, last, file, writeDump);
+  writeTextFrames(frames, first, last, file, writeDump);
 }
 
 void exportExtendedXyz(FrameSource& frames, std::size_t first, std::size_t last,
                        const std::filesystem::path& file) {
-  writeFrames(frames, first, last, file, writeXyz);
+  writeTextFrames(frames, first, last, file, writeXyz);
 }
 
 } // namespace sandglass

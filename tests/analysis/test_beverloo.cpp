@@ -1,4 +1,6 @@
 #include "analysis/beverloo.h"
+#include "analysis/fill_height.h"
+#include "analysis/hopper_angle.h"
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 
@@ -68,4 +70,44 @@ TEST_CASE("no fit through one width", "[beverloo]") {
   CHECK_THROWS_AS(fitBeverloo(same, OutletShape::slot, d, rho, g), InputError);
   const std::vector<OutletRate> none{{0.02, 1, 0}, {0.03, 0, 0}};
   CHECK_THROWS_WITH(fitBeverloo(none, OutletShape::slot, d, rho, g), Catch::Contains("needs positive ones"));
+}
+
+TEST_CASE("corrections for a hopper's half-angle", "[beverloo]") {
+  const double degree = 3.14159265358979323846 / 180;
+  CHECK(brownRichards(90 * degree, OutletShape::circle) == Approx(1));
+  CHECK(brownRichards(90 * degree, OutletShape::slot) == Approx(1));
+  // As worked out in tables of the 2009 study: cone 1.10 and 1.49, wedge 1.21 and 1.65 at 30 and 15 degrees;
+  // 0.926 for the cone at 60, 0.995 for the wedge at 55.
+  CHECK(brownRichards(30 * degree, OutletShape::circle) == Approx(1.10).margin(0.005));
+  CHECK(brownRichards(15 * degree, OutletShape::circle) == Approx(1.49).margin(0.005));
+  CHECK(brownRichards(60 * degree, OutletShape::circle) == Approx(0.926).margin(0.0005));
+  CHECK(brownRichards(30 * degree, OutletShape::slot) == Approx(1.21).margin(0.005));
+  CHECK(brownRichards(15 * degree, OutletShape::slot) == Approx(1.65).margin(0.005));
+  CHECK(brownRichards(55 * degree, OutletShape::slot) == Approx(0.995).margin(0.0005));
+  CHECK(roseTanaka(30 * degree, 45 * degree) == Approx(1.21).margin(0.005));
+  CHECK(roseTanaka(15 * degree, 45 * degree) == Approx(1.59).margin(0.005));
+  CHECK(roseTanaka(15 * degree, 35 * degree) == Approx(1.80).margin(0.005));
+  CHECK(roseTanaka(55 * degree, 45 * degree) == 1);
+  CHECK(roseTanaka(90 * degree, 45 * degree) == 1);
+}
+
+TEST_CASE("the rate against the fill height", "[discharge]") {
+  // Mass 10 t - t^2 / 2 for 8 s, so the rate between t and t + 1 is 9.5 - t; height 40 - 4 t over an outlet
+  // of 2.
+  DischargeData data;
+  for (int k = 0; k <= 80; ++k) {
+    const double t = 0.1 * k;
+    data.time.push_back(t);
+    data.mass.push_back(10 * t - 0.5 * t * t);
+  }
+  std::vector<FillSample> samples;
+  for (int k = 1; k < 8; ++k)
+    samples.push_back({static_cast<double>(k), 40.0 - 4 * k});
+  const Curve curve = rateByFillHeight(data, samples, 2);
+  const Series& s = curve.series.at(0);
+  REQUIRE(s.x.size() == 6);
+  CHECK(s.x[0] == Approx((36 + 32) / 2.0 / 2));
+  CHECK(s.y[0] == Approx(8.5));
+  CHECK(s.y[5] == Approx(3.5));
+  CHECK_THROWS(rateByFillHeight(data, std::vector<FillSample>{{1, 3}, {2, 2}}, 2));
 }

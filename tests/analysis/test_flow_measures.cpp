@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 using namespace sandglass;
@@ -51,6 +53,59 @@ TEST_CASE("random steps diffuse with their known rate, drift and periods taken a
   const Results r = analyze(kind, defaultKnobs(kind), {}, frames);
   CHECK(r.curves[0].series[0].y[0] == Approx(0.03).epsilon(0.02));
   CHECK(r.curves[0].numbers.at("diffusion") == Approx(0.01).epsilon(0.1));
+}
+
+TEST_CASE("falling grains that step aside have their diffusion length", "[flow]") {
+  // 2000 grains, in each of 60 frames half a diameter down and a normal step of variance 0.02 d^2 along x,
+  // 0.005 d^2 along y: <s^2> = 2 b h, so b = 0.02 / (2 0.5) = 0.02 d and 0.005 d.
+  RandomStream random(11, RandomPurpose::test, 0);
+  Frame frame = uniformFrame(2000, Vec3(50, 50, 50), {false, false, false}, 0.5, {}, 3);
+  std::vector<FramePtr> frames;
+  for (int s = 0; s < 60; ++s) {
+    frame.time = s;
+    frames.push_back(std::make_shared<Frame>(frame));
+    for (auto& x : frame.position)
+      x += Vec3(std::sqrt(0.02) * random.normal(), std::sqrt(0.005) * random.normal(), -0.5);
+  }
+  AnalysisContext context;
+  context.facts.up = Vec3::UnitZ();
+  context.diameter = 1;
+  const AnalysisKind& kind = analysisKind("motion");
+  const Results r = analyze(kind, defaultKnobs(kind), context, frames);
+  const auto found = std::find_if(r.curves.begin(), r.curves.end(),
+                                  [](const Curve& c) { return c.name == "diffusion_length"; });
+  REQUIRE(found != r.curves.end());
+  std::vector<double> b{found->numbers.at("b_first"), found->numbers.at("b_second")};
+  std::sort(b.begin(), b.end());
+  // Later variances hold earlier ones: the slope scatters by some 3 % of sqrt(2 / 2000) each, times a few.
+  CHECK(b[0] == Approx(0.005).epsilon(0.1));
+  CHECK(b[1] == Approx(0.02).epsilon(0.1));
+}
+
+TEST_CASE("the angle of a heap of grains on a slope, about a plane and about an axis", "[flow]") {
+  // Level rows below a surface that rises outwards with tan = 0.4: z = 5 + 0.4 |x|, and around an axis.
+  AnalysisContext context;
+  context.facts.up = Vec3::UnitZ();
+  context.facts.outletCentre = Vec3(0, 0, 0);
+  context.diameter = 1;
+  const AnalysisKind& kind = analysisKind("surface_angle");
+  for (const bool round : {false, true}) {
+    Frame frame;
+    RandomStream random(5, RandomPurpose::test, round);
+    for (int i = 0; i < 200000; ++i) {
+      const Vec3 x(random.uniform(-25, 25), random.uniform(-25, 25), random.uniform(0, 16));
+      if (x.z() > 5 + 0.4 * (round ? x.head<2>().norm() : std::abs(x.x()))) continue;
+      frame.id.push_back(i);
+      frame.position.push_back(x);
+    }
+    frame.scalars[quantity::radius] = std::vector<double>(frame.size(), 0.5);
+    Parameters knobs = defaultKnobs(kind);
+    knobs.set("across", std::string("x"));
+    if (round) knobs.set("distance", std::string("axis"));
+    const Results r = analyze(kind, knobs, context, {std::make_shared<Frame>(frame)});
+    // Each top is that of the bin's outer edge, less the gap of random points: the slope is kept.
+    CHECK(r.curves.at(0).numbers.at("angle") == Approx(std::atan(0.4) * 180 / std::numbers::pi).margin(0.5));
+  }
 }
 
 TEST_CASE("velocities of one direction in each half are correlated near and not far", "[flow]") {
