@@ -287,7 +287,6 @@ void DemSolver::load(const State& s) {
   get(s, "species", grains_.species);
   get(s, "material", grains_.material);
   get(s, "image", grains_.image);
-  checkPromisedSizes();
   for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
     get(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
 
@@ -297,6 +296,7 @@ void DemSolver::load(const State& s) {
     throw InputError(
         "the checkpoint's grain records do not fit the scene; it belongs to another scene or version");
   grains_.setRecords(records);
+  checkPromisedSizes();
 
   // The list as it was: built from the positions that it was built from. The sort is stable, so the storage
   // order stays, and histories fit their pairs again.

@@ -66,6 +66,7 @@ public:
   void overrideStep(double step) { dt_ = step; } ///< unchecked [s]; to study what the limit guards against
   std::size_t pairsListed() const { return static_cast<std::size_t>(list_.size()); }
   std::int64_t rebuilds() const { return rebuilds_; }
+  bool hasOwnLoop() const { return pairForces_.hasOwnLoop(); } ///< as PairForces
   double bytesPerGrain() const;
 
 private:
