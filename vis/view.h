@@ -54,11 +54,13 @@ struct ClipCylinder {
   bool inside = true;
 };
 
-/// Grains chosen by an expression over their quantities, such as "z > 0.05 && speed < 0.1" (see selection.h).
+/// Grains chosen by an expression over their quantities, such as "z > 0.05 && speed < 0.1" (see selection.h),
+/// or by name; where there are both, those that fulfil both.
 struct Selection {
   enum class Use { only, hide, highlight };
   std::string expression; ///< empty: no choice
   Use use = Use::only;    ///< draw only these, all but these, or these in their colour and the others pale
+  std::vector<std::int64_t> grains; ///< ids; empty: no choice
 };
 
 /// Contacts as tubes from centre to centre (or to the point on the wall), as thick and coloured as the force.

@@ -92,6 +92,7 @@ void readClip(TomlFields& fields, ClipCylinder& cylinder) {
 void readSelection(TomlFields& fields, Selection& selection) {
   fields.text("expression", selection.expression);
   readChoice(fields, "use", selection.use, useNames);
+  fields.wholeNumbers("grains", selection.grains);
 }
 
 void readForceChains(TomlFields& fields, ForceChains& chains) {
@@ -211,9 +212,11 @@ std::string writeView(const View& view) {
   const ForceChains& f = view.forceChains;
   const Arrows& a = view.arrows;
   const FieldSlice& s = view.slice;
-  toml::array tracked;
+  toml::array tracked, chosen;
   for (const std::int64_t id : view.tracks.grains)
     tracked.push_back(id);
+  for (const std::int64_t id : view.selection.grains)
+    chosen.push_back(id);
   toml::table table{
       {"title", view.title},
       {"width", view.width},
@@ -252,7 +255,8 @@ std::string writeView(const View& view) {
                                 {"high", q.high},
                                 {"plain", array(q.plain)}}},
       {"selection", toml::table{{"expression", view.selection.expression},
-                                {"use", useNames[static_cast<std::size_t>(view.selection.use)]}}},
+                                {"use", useNames[static_cast<std::size_t>(view.selection.use)]},
+                                {"grains", std::move(chosen)}}},
       {"force_chains", toml::table{{"shown", f.shown},
                                    {"width", f.width},
                                    {"minimum", f.minimum},

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 namespace sandglass::vis {
 
@@ -44,6 +45,22 @@ std::vector<std::int32_t> shapesOf(const Frame& frame) {
   return result;
 }
 
+/// One for each chosen grain, zero for the others; empty where nothing is chosen.
+std::vector<std::uint8_t> chosenGrains(const Frame& frame, const Selection& selection,
+                                       const History* history) {
+  std::vector<std::uint8_t> chosen;
+  if (!selection.expression.empty())
+    chosen = analysis::selectGrains(frame, selection.expression, [&](const std::string& name) {
+      return quantityValues(frame, name, history);
+    });
+  if (selection.grains.empty()) return chosen;
+  chosen.resize(frame.size(), 1);
+  const std::unordered_set<std::int64_t> named(selection.grains.begin(), selection.grains.end());
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    if (!named.contains(i < frame.id.size() ? frame.id[i] : static_cast<std::int64_t>(i))) chosen[i] = 0;
+  return chosen;
+}
+
 } // namespace
 
 std::vector<double> drawnRadii(const Frame& frame) {
@@ -60,12 +77,8 @@ std::vector<double> drawnRadii(const Frame& frame) {
 VisibleGrains visibleGrains(const Frame& frame, const View& view, const History* history) {
   VisibleGrains result;
   if (!view.grains) return result;
-  std::vector<std::uint8_t> chosen;
+  const std::vector<std::uint8_t> chosen = chosenGrains(frame, view.selection, history);
   const auto use = view.selection.use;
-  if (!view.selection.expression.empty())
-    chosen = analysis::selectGrains(frame, view.selection.expression, [&](const std::string& name) {
-      return quantityValues(frame, name, history);
-    });
   const auto isShown = [&](std::size_t i) {
     return chosen.empty() || use == Selection::Use::highlight ||
            (use == Selection::Use::only) == (chosen[i] != 0);

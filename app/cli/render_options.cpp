@@ -110,7 +110,7 @@ vis::View viewOf(const RenderOptions& options, const vis::View& base) {
       view.height = height;
     });
   if (options.supersample > 0) view.supersampling = options.supersample;
-  if (!options.select.empty()) view.selection = {options.select, vis::Selection::Use::only};
+  if (!options.select.empty()) view.selection = {options.select, vis::Selection::Use::only, {}};
   if (!options.arrows.empty()) view.arrows.vector = options.arrows;
   if (options.forceChains) {
     view.forceChains.shown = true;

@@ -26,7 +26,7 @@ constexpr int shortestDrag = 6; ///< [pixel]
 ChartPanel::ChartPanel(const QString& name, const QString& hint, QWidget* parent)
     : QWidget(parent), hint_(hint) {
   setObjectName(name);
-  setMinimumSize(180, 130);
+  setMinimumSize(290, 130);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMouseTracking(true);
   bar_ = new QWidget(this);

@@ -37,6 +37,7 @@ QImage toQImage(vis::Image image) {
 
 DrawingThread::DrawingThread(vis::GlBackend backend) : thread_([this, backend] { work(backend); }) {
   qRegisterMetaType<vis::ChartPlace>("sandglass::vis::ChartPlace");
+  qRegisterMetaType<std::vector<std::int64_t>>("std::vector<std::int64_t>");
 }
 
 DrawingThread::~DrawingThread() {
@@ -63,6 +64,12 @@ void DrawingThread::drawChart(const QString& panel, analysis::Curve curve, QSize
 void DrawingThread::pick(QPoint pixel) {
   const std::lock_guard lock(mutex_);
   pick_ = pixel;
+  changed_.notify_all();
+}
+
+void DrawingThread::pickIn(QRect pixels) {
+  const std::lock_guard lock(mutex_);
+  pickIn_ = pixels;
   changed_.notify_all();
 }
 
@@ -144,6 +151,12 @@ std::optional<DrawingThread::Task> DrawingThread::dueTask(Clock::time_point now)
     return [this, p](vis::Renderer& r) {
       const vis::PickResult hit = r.pick(p.x(), p.y());
       Q_EMIT picked(hit.grain, hit.half);
+    };
+  }
+  if (pickIn_) {
+    const QRect p = *std::exchange(pickIn_, std::nullopt);
+    return [this, p](vis::Renderer& r) {
+      Q_EMIT pickedIn(r.grainsIn(p.left(), p.top(), p.right(), p.bottom()));
     };
   }
   const bool pictureDue = picture_ && (picture_->interactive || now >= pictureFrom_);

@@ -75,6 +75,7 @@ public:
   void draw(PictureOrder order);
   void drawChart(const QString& panel, analysis::Curve curve, QSize pixels);
   void pick(QPoint pixel);                                    ///< of the picture drawn last
+  void pickIn(QRect pixels);                                  ///< all grains in a rectangle of it
   void save(PictureFile file);                                ///< never dropped
   void saveChart(analysis::Curve curve, const QString& file); ///< likewise; PNG
   void setSimulationRuns(bool runs);
@@ -84,8 +85,9 @@ public:
 Q_SIGNALS: // from the drawing thread: connect to objects of the window's thread
   void pictureReady();
   void chartReady(const QString& panel, const QImage& image, const sandglass::vis::ChartPlace& place);
-  void picked(qint64 grain, int half);                   ///< half: 1 in the right one of a pair, else 0
-  void saved(const QString& file, const QString& fault); ///< no fault: it is there
+  void picked(qint64 grain, int half);                    ///< half: 1 in the right one of a pair, else 0
+  void pickedIn(const std::vector<std::int64_t>& grains); ///< ascending
+  void saved(const QString& file, const QString& fault);  ///< no fault: it is there
   void failed(const QString& sentence);
   void started(const QString& backend);
 
@@ -120,6 +122,7 @@ private:
   std::deque<PictureFile> files_;
   std::deque<std::pair<analysis::Curve, QString>> chartFiles_;
   std::optional<QPoint> pick_;
+  std::optional<QRect> pickIn_;
   bool simulationRuns_ = false, quit_ = false, chartLast_ = false;
   Clock::time_point pictureFrom_{}, chartFrom_{}; ///< not before
 

@@ -149,6 +149,30 @@ void InspectorPanel::showValues(const Frame& frame) {
   contacts->setExpanded(true);
 }
 
+void InspectorPanel::showMany(const std::vector<std::int64_t>& grains, const FramePtr& frame) {
+  show(-1, nullptr, nullptr);
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < frame->size(); ++k)
+    if (std::binary_search(grains.begin(), grains.end(), frame->id[k])) places.push_back(k);
+  new QTreeWidgetItem(values_, {"grains chosen", QString("%L1").arg(places.size())});
+  if (places.empty()) return;
+  for (const auto& name : grainScalarNames(*frame)) {
+    const auto values = grainScalar(*frame, name);
+    double sum = 0, least = values[places[0]], most = least;
+    for (const std::size_t k : places) {
+      sum += values[k];
+      least = std::min(least, values[k]);
+      most = std::max(most, values[k]);
+    }
+    new QTreeWidgetItem(values_, {QString::fromStdString(name),
+                                  withUnit(QString("mean %1, from %2 to %3")
+                                               .arg(number(sum / static_cast<double>(places.size())))
+                                               .arg(number(least))
+                                               .arg(number(most)),
+                                           name)});
+  }
+}
+
 void InspectorPanel::readHistory() {
   if (grain_ < 0 || !store_ || store_->size() < 2) return;
   const std::string quantity = history_->quantity().toStdString();

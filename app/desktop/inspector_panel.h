@@ -21,6 +21,8 @@ public:
 
   /// Shows the grain in this frame; negative: none. The history is read from `store` in a worker.
   void show(std::int64_t grain, const FramePtr& frame, std::shared_ptr<const FrameStore> store);
+  /// Numbers of the grains with these ids (ascending) in this frame: how many, mean, least and most.
+  void showMany(const std::vector<std::int64_t>& grains, const FramePtr& frame);
   std::int64_t grain() const { return grain_; }
   FramePtr frame() const { return frame_; }
   ChartPanel* history() const { return history_; }

@@ -4,6 +4,7 @@
 #include "app/desktop/main_window.h"
 #include "app/desktop/screenshot.h"
 #include "app/desktop/style.h"
+#include "app/desktop/sweep_panel.h"
 #include "sim/base/error.h"
 #include "vis/readers/child_reader.h"
 #include "vis/readers/vtk_frame.h"
@@ -26,6 +27,7 @@ struct Arguments {
   std::string path, folder, columns, viewFile, screenshot, size = "1440x900", backend = "auto";
   int threads = 0;
   double at = -1;
+  int point = 0;
   bool run = false, dark = false;
 };
 
@@ -40,6 +42,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_flag("--run", a.run, "start at once");
   app.add_option("--view", a.viewFile, "view file (TOML)");
   app.add_option("--at", a.at, "show the saved frame nearest to this time [s]");
+  app.add_option("--point", a.point, "of a sweep: choose this one")->check(CLI::PositiveNumber);
   app.add_option("--size", a.size, "of the window, WIDTHxHEIGHT [pixel]");
   app.add_option("--screenshot", a.screenshot,
                  "save what the window looks like as PNG, then quit; needs no display");
@@ -94,6 +97,8 @@ int show(const Arguments& a, int argc, char** argv) {
     if (std::exchange(shown, true)) return; // what is opened later is as it is
     if (view) window.showView(*view);
     if (a.at >= 0) window.showTime(a.at);
+    if (a.point > 0 && window.session().current().sweep)
+      window.findChild<SweepPanel*>()->diagram()->choose(a.point);
     if (a.run) window.session().start();
   });
   if (a.dark) window.commands().action("window.dark")->trigger();

@@ -18,6 +18,7 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSplitter>
 #include <QStatusBar>
 #include <QVBoxLayout>
@@ -28,9 +29,17 @@ namespace {
 
 constexpr int curveInterval = 1000; ///< [ms] between looks at the probes' new samples
 
-/// A panel that may be less high than what it holds.
+/// A panel that may be less high than what it holds, but not less wide.
+class UprightScroll : public QScrollArea {
+public:
+  QSize minimumSizeHint() const override {
+    return {widget()->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width(),
+            QScrollArea::minimumSizeHint().height()};
+  }
+};
+
 QScrollArea* scrolling(QWidget* content) {
-  auto* area = new QScrollArea;
+  auto* area = new UprightScroll;
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);
   area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -125,6 +134,7 @@ void MainWindow::buildCentre() {
   });
   connect(picture_, &PictureView::resized, this, [this] { requestPicture(); });
   connect(picture_, &PictureView::clicked, this, [this](QPoint pixel) { drawing_->pick(pixel); });
+  connect(picture_, &PictureView::rectangleDrawn, this, [this](QRect pixels) { drawing_->pickIn(pixels); });
   connect(picture_, &PictureView::fitWanted, this, [this] { usePreset("fit"); });
   connect(time_, &TimeBar::chosenChanged, this, [this] {
     outdated_ = true;
@@ -237,6 +247,7 @@ void MainWindow::connectDrawing() {
             charts_.at(panel)->setImage(image, place);
           });
   connect(drawing_.get(), &DrawingThread::picked, this, &MainWindow::onPicked);
+  connect(drawing_.get(), &DrawingThread::pickedIn, this, &MainWindow::onPickedIn);
   connect(drawing_.get(), &DrawingThread::failed, this, &MainWindow::onDrawingFailed);
   connect(drawing_.get(), &DrawingThread::started, this,
           [this](const QString& backend) { say(LogLevel::info, "Pictures by " + backend + "."); });

@@ -121,6 +121,8 @@ private:
   void requestPicture(bool interactive = false);
   void onPicture();
   void onPicked(qint64 grain, int half);
+  void onPickedIn(const std::vector<std::int64_t>& grains);
+  void chooseNone();
   void refreshPanels(bool restart);
   void requestAnalyses(bool restart);
   void takeAnalyses();

@@ -52,6 +52,11 @@ void PictureView::paintEvent(QPaintEvent*) {
   if (picture_.image.isNull()) return paintHint(painter);
   if (picture_.image.size() == pixels()) {
     painter.drawImage(rect(), picture_.image);
+    if (drawsRectangle_ && dragging_) {
+      painter.setPen(QPen(QColor(31, 111, 120), 1.5, Qt::DashLine));
+      painter.setBrush(QColor(31, 111, 120, 30));
+      painter.drawRect(QRect(pressed_, last_).normalized());
+    }
     return;
   }
   // Until the picture of the new size is there: the old one, whole and in the middle.
@@ -94,6 +99,7 @@ void PictureView::move(const vis::Camera& camera, bool interactive) {
 
 void PictureView::mousePressEvent(QMouseEvent* event) {
   pressed_ = last_ = event->pos();
+  drawsRectangle_ = event->button() == Qt::LeftButton && (event->modifiers() & Qt::ControlModifier);
   if (!settle_.isActive()) camera_ = picture_.camera;
 }
 
@@ -103,6 +109,7 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
   dragging_ = true;
   const QPoint by = event->pos() - last_;
   last_ = event->pos();
+  if (drawsRectangle_) return update();
   const bool pans = !(event->buttons() & Qt::LeftButton) || (event->modifiers() & Qt::ShiftModifier);
   if (pans)
     move(vis::pan(camera_, -static_cast<double>(by.x()) / height(), static_cast<double>(by.y()) / height()),
@@ -113,7 +120,12 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
 
 void PictureView::mouseReleaseEvent(QMouseEvent* event) {
   if (event->buttons() != Qt::NoButton) return;
-  if (std::exchange(dragging_, false))
+  const bool rectangle = std::exchange(drawsRectangle_, false), dragged = std::exchange(dragging_, false);
+  if (rectangle && dragged) {
+    const QRect drawn = QRect(pressed_, event->pos()).normalized();
+    update();
+    Q_EMIT rectangleDrawn({drawn.topLeft() * devicePixelRatioF(), drawn.size() * devicePixelRatioF()});
+  } else if (dragged)
     move(camera_, false);
   else if (event->button() == Qt::LeftButton && !picture_.image.isNull())
     Q_EMIT clicked(event->pos() * devicePixelRatioF());

@@ -33,6 +33,7 @@ Q_SIGNALS:
   void cameraMoved(const vis::Camera& camera, bool interactive);
   void resized();
   void clicked(QPoint pixel);
+  void rectangleDrawn(QRect pixels); ///< with Ctrl held
   void fitWanted();
 
 protected:
@@ -53,7 +54,7 @@ private:
   std::uint64_t pictures_ = 0;
   QString hintTitle_, hintText_;
   QPoint pressed_, last_;
-  bool dragging_ = false;
+  bool dragging_ = false, drawsRectangle_ = false;
   QTimer settle_; ///< after the last turn of the wheel
 };
 

@@ -298,6 +298,7 @@ void ScenePanel::showForm() {
   for (const auto& table : tables_)
     if (auto* widget = tableWidget(table)) column->addWidget(widget);
   column->addStretch(1);
+  if (QWidget* before = scroll_->takeWidget()) before->deleteLater(); // a key may be on its way through it
   scroll_->setWidget(page);
   scroll_->verticalScrollBar()->setValue(at);
   if (auto* again = focused.isEmpty() ? nullptr : page->findChild<QWidget*>(focused)) {

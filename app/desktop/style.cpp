@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <utility>
 
 namespace sandglass::desktop {
 
@@ -195,7 +196,9 @@ void setStyle(QApplication& app, Theme theme, double textScale) {
   const bool dark = theme == Theme::dark;
   const Colours& c = dark ? darkColours : lightColours;
   currentInk = {c.ink, c.faint, c.paper, c.fault, dark ? QColor(240, 190, 90) : QColor(154, 103, 0)};
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  // Each of these calls goes through all widgets: only what changes is set.
+  static bool fusion = false;
+  if (!std::exchange(fusion, true)) QApplication::setStyle(QStyleFactory::create("Fusion"));
   QPalette palette;
   palette.setColor(QPalette::Window, c.window);
   palette.setColor(QPalette::Base, c.paper);
@@ -210,11 +213,11 @@ void setStyle(QApplication& app, Theme theme, double textScale) {
   palette.setColor(QPalette::HighlightedText, Qt::white);
   palette.setColor(QPalette::ToolTipBase, c.paper);
   palette.setColor(QPalette::ToolTipText, c.ink);
-  QApplication::setPalette(palette);
+  if (QApplication::palette() != palette) QApplication::setPalette(palette);
   QFont font = QFontDatabase::systemFont(QFontDatabase::GeneralFont);
   font.setPointSizeF(9.5 * textScale);
   QApplication::setFont(font);
-  app.setStyleSheet(sheetWith(c));
+  if (const QString text = sheetWith(c); app.styleSheet() != text) app.setStyleSheet(text);
   QApplication::setWindowIcon(icon("app"));
 }
 

@@ -3,6 +3,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QScrollBar>
 #include <QSignalBlocker>
 
 #include <algorithm>
@@ -55,6 +56,11 @@ ViewPanel::ViewPanel(QWidget* parent) : QScrollArea(parent) {
   slice_ = new SliceFields(form);
   connect(slice_, &SliceFields::changed, this, &ViewPanel::changed);
   setView({});
+}
+
+QSize ViewPanel::minimumSizeHint() const {
+  return {widget()->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width(),
+          QScrollArea::minimumSizeHint().height()};
 }
 
 void ViewPanel::addColours(QFormLayout* form) {

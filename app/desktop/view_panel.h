@@ -21,6 +21,7 @@ class ViewPanel : public QScrollArea {
   Q_OBJECT
 public:
   explicit ViewPanel(QWidget* parent = nullptr);
+  QSize minimumSizeHint() const override; ///< as wide as what it holds
 
   /// Offers the quantities and the extent of this frame.
   void setFrame(const Frame& frame);

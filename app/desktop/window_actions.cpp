@@ -188,6 +188,7 @@ void MainWindow::saveScene(const QString& file) {
 }
 
 void MainWindow::showCheatSheet() {
+  if (auto* before = findChild<QDialog*>("cheatSheet")) return before->raise();
   auto* dialog = new QDialog(this);
   dialog->setObjectName("cheatSheet");
   dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -196,6 +197,7 @@ void MainWindow::showCheatSheet() {
                                                  {"Move the view", "right drag, or Shift + drag"},
                                                  {"Zoom", "wheel"},
                                                  {"What a grain is and does", "click"},
+                                                 {"Choose grains", "Ctrl + drag"},
                                                  {"See everything", "double click"},
                                                  {"Read a chart", "point at it"},
                                                  {"Zoom in a chart", "drag, or wheel; double click: all"},

@@ -268,6 +268,14 @@ std::vector<Command> MainWindow::viewRows() {
          [this](bool) { picture_->orbitBy(0, turn); });
   camera("view.turnDown", "Turn down", "Ctrl+Down", "Look from lower down",
          [this](bool) { picture_->orbitBy(0, -turn); });
+  rows.push_back({.id = "view.chooseNone",
+                  .menu = menu,
+                  .name = "Choose &no grains",
+                  .keys = keys({"Esc"}),
+                  .toolTip = "Forget the grains that a rectangle has chosen",
+                  .icon = {},
+                  .beginsGroup = true,
+                  .perform = [this](bool) { chooseNone(); }});
   rows.push_back({.id = "view.track",
                   .menu = menu,
                   .name = "Trac&k of the grain",

@@ -190,6 +190,29 @@ void MainWindow::onPicked(qint64 grain, int half) {
   statusBar()->showMessage(text);
 }
 
+void MainWindow::onPickedIn(const std::vector<std::int64_t>& grains) {
+  if (!now_->shown) return;
+  if (grains.empty()) return statusBar()->showMessage("No grain's centre is in the rectangle.");
+  now_->view.selection.grains = grains;
+  now_->view.selection.use = vis::Selection::Use::highlight;
+  keepView("choose grains");
+  viewPanel_->setView(now_->view);
+  requestPicture();
+  inspector_->showMany(grains, now_->shown);
+  if (docks_.at("inspector")->toggleViewAction()->isChecked()) docks_.at("inspector")->raise();
+  statusBar()->showMessage(
+      QString("%L1 grains chosen; the others are pale. Esc chooses none.").arg(grains.size()));
+}
+
+void MainWindow::chooseNone() {
+  if (now_->view.selection.grains.empty()) return;
+  now_->view.selection.grains.clear();
+  keepView("choose no grains");
+  viewPanel_->setView(now_->view);
+  requestPicture();
+  inspect();
+}
+
 void MainWindow::keepView(const QString& what) {
   Document* document = now_;
   now_->undo.push(new ChangeCommand<vis::View>(

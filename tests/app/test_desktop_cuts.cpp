@@ -6,6 +6,7 @@
 
 #include <QLabel>
 #include <QLineEdit>
+#include <QTreeWidget>
 
 #include <catch2/catch.hpp>
 
@@ -16,7 +17,7 @@ using namespace sandglass::test;
 
 namespace {
 
-/// A run of a bed of 216 beads, opened, and whether what is done to it changes the picture.
+/// A run of a bed of beads, opened, and whether what is done to it changes the picture.
 class Opened {
 public:
   Opened() : folder_("desktop-cuts") {
@@ -142,4 +143,52 @@ TEST_CASE("A slice through averages over the grains is chosen by keys and mouse"
   desktop.click("slice");
   desktop.click("showGrains");
   REQUIRE(opened.changed());
+}
+
+TEST_CASE("A rectangle drawn with the mouse chooses grains, by the clip too, and is undone",
+          "[desktop][cuts]") {
+  Opened opened;
+  Desktop& desktop = *opened.desktop;
+  auto& picture = desktop.picture();
+  const auto rectangle = [&](QPoint from, QPoint to) {
+    QTest::mousePress(&picture, Qt::LeftButton, Qt::ControlModifier, from);
+    for (const QPoint at : {(from + to) / 2, to}) {
+      QMouseEvent move(QEvent::MouseMove, at, Qt::NoButton, Qt::LeftButton, Qt::ControlModifier);
+      QCoreApplication::sendEvent(&picture, &move);
+    }
+    QTest::mouseRelease(&picture, Qt::LeftButton, Qt::ControlModifier, to);
+  };
+  const QPoint corner(picture.width() - 1, picture.height() - 1),
+      middle(picture.width() / 2, picture.height() - 1);
+  const auto& chosen = opened.view().selection.grains;
+  const vis::Camera before = opened.view().camera;
+  const std::size_t all = desktop.window->shownFrame()->size();
+  rectangle({1, 1}, corner);
+  waitFor([&] { return chosen.size() == all; }, 5);
+  INFO(desktop.window->bannerText().toStdString());
+  REQUIRE(chosen.size() == all);                           // all of them, hidden ones too
+  CHECK(opened.view().camera.position == before.position); // the camera stays
+  rectangle({1, 1}, middle);
+  REQUIRE(waitFor([&] { return chosen.size() < all; }));
+  CHECK(chosen.size() > 20);
+  CHECK(opened.changed()); // the others are pale
+  const auto left = chosen;
+  auto* values = desktop.child<QTreeWidget>("grainValues");
+  CHECK(values->topLevelItem(0)->text(1) == QString::number(left.size()));
+  desktop.click("clip");
+  REQUIRE(opened.changed());
+  rectangle({1, 1}, corner);
+  REQUIRE(waitFor([&] { return chosen != left; }));
+  const Frame& frame = *desktop.window->shownFrame();
+  const auto& plane = opened.view().clips.front();
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    const bool kept = (frame.position[k] - plane.point).dot(plane.normal) >= 0;
+    CHECK(kept == std::binary_search(chosen.begin(), chosen.end(), frame.id[k]));
+  }
+  REQUIRE(waitFor([&] { return desktop.window->isSettled(); }));
+  desktop.window->setFocus();
+  desktop.key(Qt::Key_Escape);
+  CHECK(chosen.empty());
+  desktop.key(Qt::Key_Z, Qt::ControlModifier);
+  CHECK_FALSE(chosen.empty());
 }

@@ -14,6 +14,7 @@
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QPlainTextEdit>
+#include <QPointer>
 #include <QPushButton>
 
 #include <catch2/catch.hpp>
@@ -199,6 +200,28 @@ TEST_CASE("A field edited in the form shows at once, is undone, and a fault stan
       waitFor([&] { return desktop.window->isSettled() && desktop.window->shownFrame()->size() == grains; }));
   desktop.key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   REQUIRE(text() != before);
+}
+
+TEST_CASE("A letter that gives the form another key ends before its field goes", "[desktop]") {
+  TemporaryFolder folder("desktop-new-key");
+  Desktop desktop(folder / "run");
+  REQUIRE(desktop.open(writeBed(folder / "bed.toml", 4, 4, 0.05)));
+  REQUIRE(settled(desktop));
+  desktop.click("allKeys");
+  REQUIRE(settled(desktop));
+  QLineEdit* left = nullptr; // of a key that is not given
+  for (auto* line : desktop.child<QWidget>("sceneForm")->findChildren<QLineEdit*>())
+    if (!left && line->text().isEmpty() && !line->placeholderText().isEmpty()) left = line;
+  REQUIRE(left);
+  const QString name = left->objectName();
+  left->setFocus();
+  const QPointer<QLineEdit> before = left;
+  QTest::keyClick(left, Qt::Key_1);
+  CHECK(before); // it still handles the key
+  REQUIRE(settled(desktop));
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete); // as an event loop does
+  CHECK_FALSE(before);
+  CHECK(desktop.child<QLineEdit>(name.toUtf8().constData())->text() == "1");
 }
 
 TEST_CASE("Views are undone and redone", "[desktop]") {

@@ -73,15 +73,18 @@ public:
       break;
     }
     QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete); // as an event loop does
     QThread::msleep(random_() % 20);
-    longest_ = std::max(longest_, 1e-3 * static_cast<double>(since.elapsed()));
+    const double seconds = 1e-3 * static_cast<double>(since.elapsed());
+    if (seconds > longest_) longest_ = seconds, slowest_ = now_;
     ++actions_;
     if (actions_ % 40 == 0 && !desktop_.session().runs()) start();
   }
 
   int actions() const { return actions_; }
   int runs() const { return runs_; }
-  double longest() const { return longest_; }
+  double longest() const { return longest_; } ///< [s]
+  const std::string& slowest() const { return slowest_; }
   quint64 pictures() { return desktop_.picture().pictures(); }
 
 private:
@@ -96,6 +99,7 @@ private:
     const auto& rows = desktop_.window->commands().rows();
     const auto& row = rows[random_() % rows.size()];
     if (leftOut.contains(row.id)) return;
+    now_ = "the command " + row.id.toStdString();
     if (row.keys.isEmpty()) return desktop_.window->commands().action(row.id)->trigger();
     const int code = row.keys.first()[0], mask = static_cast<int>(Qt::KeyboardModifierMask);
     QTest::keyClick(desktop_.window.get(), static_cast<Qt::Key>(code & ~mask),
@@ -117,6 +121,7 @@ private:
   void click() {
     QWidget* widget = anyWidget();
     const QString name = widget->objectName();
+    now_ = fmt::format("a click on {} {}", widget->metaObject()->className(), name.toStdString());
     if (name == "csv" || name == "png" || name == "startOpen") return; // file dialogs
     const auto button = random_() % 5 ? Qt::LeftButton : Qt::RightButton;
     if (random_() % 6)
@@ -125,6 +130,7 @@ private:
       QTest::mouseDClick(widget, button, {}, anyPoint(widget));
   }
   void drag() {
+    now_ = "a drag";
     QPointer<QWidget> widget = random_() % 2 ? static_cast<QWidget*>(&desktop_.picture()) : anyWidget();
     if (widget->inherits("QDockWidget") || widget->inherits("QTabBar"))
       return; // moving docks grabs the mouse
@@ -137,6 +143,7 @@ private:
     if (widget) QTest::mouseRelease(widget, button, {}, anyPoint(widget));
   }
   void type() {
+    now_ = "letters";
     static const char* const texts[] = {
         "1",           "-1",  "0.002",  "3 mm",           "x",  "\"", "]", "1e308",
         "speed > 0.1", "z <", "bins=3", "r_max=nonsense", "\n", "{",  "ü"};
@@ -157,6 +164,7 @@ private:
     if (desktop_.window) desktop_.window->setFocus();
   }
   void wheel() {
+    now_ = "the wheel";
     QWidget* widget = random_() % 2 ? static_cast<QWidget*>(&desktop_.picture()) : anyWidget();
     const QPoint at = anyPoint(widget);
     QWheelEvent turn(at, widget->mapToGlobal(at), {}, QPoint(0, random_() % 2 ? 120 : -120), Qt::NoButton, {},
@@ -164,6 +172,7 @@ private:
     QCoreApplication::sendEvent(widget, &turn);
   }
   void resize() {
+    now_ = "another size of the window";
     desktop_.window->resize(700 + static_cast<int>(random_() % 700), 500 + static_cast<int>(random_() % 400));
   }
 
@@ -173,6 +182,7 @@ private:
   QTimer closer_;
   int actions_ = 0, runs_ = 0;
   double longest_ = 0;
+  std::string now_ = "the start", slowest_; ///< actions in words
 };
 
 } // namespace
@@ -200,8 +210,8 @@ int main(int argc, char** argv) {
     ok = monkey.longest() < hang && monkey.pictures() > 0;
     rows += fmt::format("monkey_{},actions,{},0,all survived,,{} s of input with {} runs going,ok\n", seed,
                         monkey.actions(), seconds, monkey.runs());
-    rows += fmt::format("monkey_{},longest action [s],{:.3g},0,below {},,no hang,{}\n", seed,
-                        monkey.longest(), hang, monkey.longest() < hang ? "ok" : "off");
+    rows += fmt::format("monkey_{},longest action [s],{:.3g},0,below {},,no hang; it was {},{}\n", seed,
+                        monkey.longest(), hang, monkey.slowest(), monkey.longest() < hang ? "ok" : "off");
     rows += fmt::format("monkey_{},pictures,{},0,more than 0,,the window went on drawing,{}\n", seed,
                         monkey.pictures(), monkey.pictures() > 0 ? "ok" : "off");
   }

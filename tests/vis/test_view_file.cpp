@@ -25,7 +25,7 @@ TEST_CASE("a view that is written and read is the same view") {
                     .high = 2.5};
   view.clipBoxes = {{Vec3(-1, 0, 1e-3), Vec3(0.1, 0.2, 0.3), false}};
   view.clipCylinders = {{Vec3(1, 2, 3), Vec3(0, 1, 1), 0.07, true}};
-  view.selection = {"z > 0.05 && speed < 0.1", Selection::Use::highlight};
+  view.selection = {"z > 0.05 && speed < 0.1", Selection::Use::highlight, {7, 1000000000001}};
   view.forceChains = {true, 2e-3, 0.5, 1e-2, "grey"};
   view.arrows = {"velocity", 0.02, 77, {0.5, 0.25, 0.125}};
   view.tracks = {{3, 1000000000001}, 0.25};
@@ -61,6 +61,7 @@ TEST_CASE("a view that is written and read is the same view") {
   CHECK(back.clipCylinders[0].radius == 0.07);
   CHECK(back.selection.expression == view.selection.expression);
   CHECK(back.selection.use == Selection::Use::highlight);
+  CHECK(back.selection.grains == view.selection.grains);
   CHECK(back.forceChains.highest == 1e-2);
   CHECK(back.arrows.maximum == 77);
   CHECK(back.tracks.grains == view.tracks.grains);
