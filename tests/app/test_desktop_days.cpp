@@ -144,8 +144,8 @@ public:
     for (int row = 8; row >= 3; --row) {
       QTest::mouseClick(&picture, Qt::LeftButton, {},
                         QPoint(picture.width() * 40 / 100, picture.height() * row / 10));
-      handleEvents(0.4);
-      if (desktop_.child<desktop::InspectorPanel>("inspector")->grain() >= 0) return;
+      const auto* inspector = desktop_.child<desktop::InspectorPanel>("inspector");
+      if (waitFor([&] { return inspector->grain() >= 0; }, 1)) return;
     }
     FAIL("no grain was hit");
   }
