@@ -77,7 +77,7 @@ ImportDialog::ImportDialog(const QString& path, const ForeignFacts& facts, const
                                .arg(facts.grains));
   column->addWidget(about);
   if (!reason.isEmpty()) {
-    auto* why = new QLabel(reason);
+    auto* why = new QLabel(withoutFolder(reason));
     why->setObjectName("importReason");
     why->setProperty("fault", true);
     why->setWordWrap(true);
@@ -341,17 +341,22 @@ void ImportDialog::showTrial(const ImportTrial& trial) {
   for (const auto& missing : trial.missing)
     lines << "Missing: " + missing + ".";
   for (const auto& granted : trial.granted)
-    lines << "Taken for granted: " + granted + ".";
+    lines << "Taken for granted: " + withoutFolder(granted) + ".";
   verdict_->setProperty("fault", false);
   style()->polish(verdict_);
   verdict_->setText(lines.join("\n"));
   save_->setEnabled(true);
 }
 
+/// The title of the dialog names the file; its folder would fill the line.
+QString ImportDialog::withoutFolder(QString text) const {
+  return text.replace(QString::fromStdString(facts_.file), QFileInfo(path_).fileName());
+}
+
 void ImportDialog::complain(const QStringList& sentences) {
   verdict_->setProperty("fault", true);
   style()->polish(verdict_);
-  verdict_->setText(QString(QChar(0x2717)) + " " + sentences.join("\n"));
+  verdict_->setText(QString(QChar(0x2717)) + " " + withoutFolder(sentences.join("\n")));
   save_->setEnabled(false);
 }
 

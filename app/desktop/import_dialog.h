@@ -44,6 +44,7 @@ private:
   void tryNow();
   void showTrial(const ImportTrial& trial);
   void complain(const QStringList& sentences);
+  QString withoutFolder(QString text) const;
   void save();
 
   QString path_;

@@ -74,8 +74,9 @@ InspectorPanel::InspectorPanel(QWidget* parent) : QWidget(parent) {
   history_ = new ChartPanel(
       "history", "Click a grain in the picture: its values, contacts and history appear here.", split);
   history_->setMinimumHeight(120);
-  split->setStretchFactor(0, 1);
-  split->setStretchFactor(1, 1);
+  split->setStretchFactor(0, 2);
+  split->setStretchFactor(1, 3);
+  split->setSizes({100, 160});
   column->addWidget(split);
   connect(history_, &ChartPanel::quantityChosen, this, &InspectorPanel::readHistory);
 }

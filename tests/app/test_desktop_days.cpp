@@ -20,6 +20,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QSlider>
+#include <QStatusBar>
 #include <QToolButton>
 
 #include <catch2/catch.hpp>
@@ -152,6 +153,7 @@ public:
   /// Keeps what the window looks like.
   void picture(const char* file) {
     settle();
+    window().statusBar()->clearMessage(); // names of folders of this machine
     handleEvents(0.3);
     const char* folder = std::getenv("SANDGLASS_PICTURES");
     const auto whole = folder ? std::filesystem::absolute(folder) / file : folder_ / file;
