@@ -85,7 +85,12 @@ CoreCase prepared(const std::string& name, const Scene& scene, std::int64_t sett
     for (const std::string& wall : scene.stages[1].removeWalls)
       solver.removeWall(wall);
   solver.advance(flow);
-  return {name, scene, {}, solver.save(), steps, {}, {}, {}, {}};
+  CoreCase made;
+  made.name = name;
+  made.scene = scene;
+  made.state = solver.save();
+  made.steps = steps;
+  return made;
 }
 
 CoreCase conicalHopper(bool quick) {
