@@ -46,16 +46,22 @@ void publish(const std::filesystem::path& file) {
   syncPath(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
 }
 
-void writeAtomically(const std::filesystem::path& file, std::string_view content) {
+void writeAtomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   {
     std::ofstream out(temporaryName(file), std::ios::binary | std::ios::trunc);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
+    write(out);
     out.close();
     if (!out)
       throw RunError(fmt::format("{}: cannot be written ({}); check the folder and the free space",
                                  file.string(), std::strerror(errno)));
   }
   publish(file);
+}
+
+void writeAtomically(const std::filesystem::path& file, std::string_view content) {
+  writeAtomically(file, [content](std::ostream& out) {
+    out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  });
 }
 
 } // namespace sandglass

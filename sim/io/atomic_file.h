@@ -3,6 +3,8 @@
 // publish().
 
 #include <filesystem>
+#include <functional>
+#include <ostream>
 #include <string_view>
 
 namespace sandglass {
@@ -16,7 +18,8 @@ void syncFile(const std::filesystem::path& file);
 /// Syncs temporaryName(file) to disk, renames it to `file`, syncs the folder. Throws RunError.
 void publish(const std::filesystem::path& file);
 
-/// Writes `content` as one atomic file. Throws RunError.
+/// Writes `content`, or what `write` puts out, as one atomic file. Throws RunError.
 void writeAtomically(const std::filesystem::path& file, std::string_view content);
+void writeAtomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
 } // namespace sandglass
