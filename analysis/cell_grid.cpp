@@ -56,7 +56,7 @@ CellGrid::CellGrid(std::span<const Vec3> points, const Domain& domain, double ce
   auto next = start_;
   original_.resize(n);
   for (auto& x : x_)
-    x.resize(n + padding, std::numeric_limits<double>::quiet_NaN());
+    x.resize(n + padding, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t at = next[cell[i]]++;
     original_[at] = static_cast<std::uint32_t>(i);

@@ -17,13 +17,14 @@ class CellGrid {
 public:
   /// `cellSize` is a wish [m]: periodic axes are divided evenly, and there are never many more cells than
   /// points. Points must lie in the domain along periodic axes.
-  /// Along the rows cells are `fineness` times shorter, so that runs end closer to the ball that is looked at.
+  /// Along the rows cells are `fineness` times shorter, so that runs end closer to the ball that is looked
+  /// at.
   CellGrid(std::span<const Vec3> points, const Domain& domain, double cellSize, double fineness = 1);
 
   std::size_t size() const { return original_.size(); }
   /// Index that the sorted point had in the caller's array.
   std::uint32_t original(std::size_t sorted) const { return original_[sorted]; }
-  /// Coordinates along the grid's own three axes (the last is the row axis). `padding` more numbers, NaN,
+  /// Coordinates along the grid's own three axes (the last is the row axis). `padding` more numbers, zeros,
   /// follow the last, so that loops may read whole vectors.
   static constexpr std::size_t padding = 8;
   const double* coordinates(int axis) const { return x_[axis].data(); }

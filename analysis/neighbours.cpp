@@ -10,8 +10,8 @@ namespace sandglass::analysis {
 
 namespace {
 
-/// Cells two fifths of the reach wide and a fifteenth along the rows: long runs, which hold 1.5 times the points
-/// that are really in reach.
+/// Cells two fifths of the reach wide and a fifteenth along the rows: long runs, which hold 1.5 times the
+/// points that are really in reach.
 CellGrid gridFor(std::span<const Vec3> points, const Domain& domain, double reach) {
   return CellGrid(points, domain, reach / 2.5, 6);
 }

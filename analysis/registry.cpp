@@ -60,9 +60,9 @@ std::unique_ptr<Analysis> makeAnalysis(const AnalysisKind& kind, const Parameter
 
 const std::vector<AnalysisKind>& analysisKinds() {
   static const std::vector<AnalysisKind> kinds{
-      pairCorrelationKind(), bondAngleKind(), voidsKind(),  voronoiKind(), orderKind(),
-      coordinationKind(),    stateKind(),     fieldsKind(), motionKind(),  mixingKind(),
-      clumpsKind(),          forcesKind(), surfaceAngleKind(),    vortexKind(),
+      pairCorrelationKind(), bondAngleKind(), voidsKind(),        voronoiKind(), orderKind(),
+      coordinationKind(),    stateKind(),     fieldsKind(),       motionKind(),  mixingKind(),
+      clumpsKind(),          forcesKind(),    surfaceAngleKind(), vortexKind(),
   };
   return kinds;
 }

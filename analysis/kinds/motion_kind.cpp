@@ -152,9 +152,12 @@ private:
     curve.x = {"mean fall / d", ""};
     curve.y = {"<s^2> / d^2", ""};
     curve.frames = frames_.size();
-    for (const auto& [name, axis] :
-         {std::pair("first level direction", axes.e1), {"second level direction", axes.e2}}) {
-      Series series{fmt::format("{} ({:.3g} {:.3g} {:.3g})", name, axis.x(), axis.y(), axis.z()), {}, {}, {}};
+    for (const auto& [name, axis] : {std::pair("first", axes.e1), {"second", axes.e2}}) {
+      Series series{
+          fmt::format("{} level direction ({:.3g} {:.3g} {:.3g})", name, axis.x(), axis.y(), axis.z()),
+          {},
+          {},
+          {}};
       for (std::size_t f = 1; f < frames_.size(); ++f) {
         double sum = 0, squares = 0, n = 0;
         for (const auto& [id, path] : frames_[f].path)
@@ -171,7 +174,7 @@ private:
       if (series.x.size() < 4 || series.x.back() < leastFall) continue;
       const std::size_t half = series.x.size() / 2;
       const Line line = fitLine(std::span(series.x).subspan(half), std::span(series.y).subspan(half));
-      const std::string key = axis == axes.e1 ? "b_first" : "b_second";
+      const std::string key = std::string("b_") + name;
       curve.numbers[key] = line.slope / 2;
       curve.numbers[key + "_error"] = line.slopeError / 2;
       sentence += fmt::format(" b = {:.3g} +- {:.1g} d along ({:.3g} {:.3g} {:.3g}),", line.slope / 2,

@@ -3,6 +3,7 @@
 #include "analysis/sweep/database.h"
 #include "analysis/sweep/sweep_blobs.h"
 #include "analysis/sweep/sweep_design.h"
+#include "analysis/sweep/sweep_schema.h"
 #include "sim/base/error.h"
 #include "sim/base/version.h"
 #include "sim/run/preview.h"
@@ -21,23 +22,6 @@ namespace sandglass::analysis {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* form = "sandglass sweep 1";
-
-constexpr const char* tables = R"(
-CREATE TABLE info (key TEXT PRIMARY KEY, value TEXT NOT NULL);
-CREATE TABLE columns (position INTEGER PRIMARY KEY, name TEXT UNIQUE NOT NULL, role TEXT NOT NULL,
-  is_text INTEGER NOT NULL, unit TEXT NOT NULL, description TEXT NOT NULL);
-CREATE TABLE points (id INTEGER PRIMARY KEY, level INTEGER NOT NULL, lattice TEXT NOT NULL);
-CREATE TABLE runs (id INTEGER PRIMARY KEY, point INTEGER NOT NULL REFERENCES points(id),
-  replicate INTEGER NOT NULL, seed INTEGER NOT NULL, status TEXT NOT NULL, fault TEXT NOT NULL DEFAULT '');
-CREATE TABLE curves (run INTEGER NOT NULL REFERENCES runs(id), position INTEGER NOT NULL, name TEXT NOT NULL,
-  title TEXT NOT NULL, x_name TEXT NOT NULL, x_unit TEXT NOT NULL, y_name TEXT NOT NULL, y_unit TEXT NOT NULL,
-  data BLOB NOT NULL, PRIMARY KEY (run, position));
-CREATE TABLE last_frames (run INTEGER PRIMARY KEY REFERENCES runs(id), time REAL NOT NULL, step INTEGER NOT NULL,
-  stage TEXT NOT NULL, data BLOB NOT NULL);
-CREATE TABLE timing (run INTEGER PRIMARY KEY REFERENCES runs(id), seconds REAL NOT NULL);
-)";
 
 constexpr const char* roleNames[] = {"axis", "derived", "result"};
 constexpr const char* statusNames[] = {"waiting", "done", "failed"};
@@ -180,7 +164,8 @@ SweepTable::SweepTable(const fs::path& folder, Access access) {
   std::string version;
   if (Statement(impl_->database, "SELECT 1 FROM sqlite_master WHERE name = 'info'").step())
     version = impl_->info("form");
-  if (version != form) throw InputError(fmt::format("{}: this is not the table of a sweep", file.string()));
+  if (version != sweepForm)
+    throw InputError(fmt::format("{}: this is not the table of a sweep", file.string()));
   impl_->load();
   const fs::path scene = impl_->info("scene_file");
   impl_->plan =
@@ -197,10 +182,10 @@ SweepTable SweepTable::create(const fs::path& file, const SweepPlan& plan) {
     Impl impl(part, Database::Mode::create);
     impl.plan = plan;
     Transaction transaction(impl.database);
-    impl.database.execute(tables);
+    impl.database.execute(sweepTables);
     for (const auto& column : planColumns(plan))
       impl.addColumn(column);
-    impl.note("form", form);
+    impl.note("form", sweepForm);
     impl.note("version", programVersion());
     impl.note("title", plan.title);
     impl.note("sweep", plan.text);

@@ -110,7 +110,8 @@ void compareWithBeverloo(const Source& source, const AnalyzeOptions& options, Cu
   curve.numbers["brown_richards_factor"] = brownRichards(angle, *source.facts.shape);
   curve.numbers["rose_tanaka_factor"] = roseTanaka(angle, stagnant);
   fmt::print("{}  Beverloo's law (k = 1.5, C = {}, flowing density {:.5g} kg/m^3): {:.4g} kg/s; the run has "
-             "{:.3f} of it; the half-angle of {:.3g} deg is to give {:.3f} (Brown & Richards) or {:.3f} (Rose & Tanaka)\n",
+             "{:.3f} of it; the half-angle of {:.3g} deg is to give {:.3f} (Brown & Richards) or {:.3f} "
+             "(Rose & Tanaka)\n",
              source.prefix, slot ? 1.03 : 0.58, rho, law, curve.numbers.at("beverloo_ratio"),
              angle * 180 / std::numbers::pi, curve.numbers.at("brown_richards_factor"),
              curve.numbers.at("rose_tanaka_factor"));
@@ -201,8 +202,8 @@ int analyze(AnalyzeOptions options) {
   }
   if (options.folder.empty()) throw InputError("name a folder for the results: -o DIR");
   const bool chosen = !options.kinds.empty() || options.packing || options.discharge || options.energies ||
-                      options.beverloo || options.contacts || options.residence || options.outflow || options.heap ||
-                      !options.impactMap.empty();
+                      options.beverloo || options.contacts || options.residence || options.outflow ||
+                      options.heap || !options.impactMap.empty();
   if (!chosen) options.all = true;
   if (options.sources.empty() && options.impactMap.empty())
     throw InputError("name a run folder or a frame file to analyse");
@@ -256,7 +257,11 @@ void addAnalyze(CLI::App& app, Action& action) {
   AnalyzeOptions& o = *options;
   CLI::App* command =
       app.add_subcommand("analyze", "Curves and numbers from runs or frame files: CSV, JSON, charts");
-  command->add_option("source", o.sources, "run folders, .vtkhdf files, files of other programs, patterns such as 'dump.*' (one sequence)")->type_name("RUN|FILE");
+  command
+      ->add_option(
+          "source", o.sources,
+          "run folders, .vtkhdf files, files of other programs, patterns such as 'dump.*' (one sequence)")
+      ->type_name("RUN|FILE");
   command->add_option("-o,--output", o.folder, "folder for the results")->type_name("DIR");
   for (const auto& kind : analysisKinds())
     command->add_flag_callback(
@@ -274,7 +279,8 @@ void addAnalyze(CLI::App& app, Action& action) {
   command->add_flag("--beverloo", o.beverloo, "Beverloo's law through the rates of several runs");
   command->add_flag("--contacts", o.contacts, "distributions of overlaps and contact forces");
   command->add_flag("--residence", o.residence, "residence times of the grains that an outlet recorded");
-  command->add_flag("--outflow", o.outflow, "where and how fast recorded grains left, and the mixture that came");
+  command->add_flag("--outflow", o.outflow,
+                    "where and how fast recorded grains left, and the mixture that came");
   command->add_flag("--heap", o.heap, "angle of the heaps that a slot hopper keeps");
   command
       ->add_option("--impact-map", o.impactMap,

@@ -82,11 +82,7 @@ void addImportOptions(CLI::App& command, ImportArguments& a) {
 }
 
 ImportSettings importSettingsOf(const ImportArguments& a, const std::string& path) {
-  ImportSettings settings;
-  if (!a.columns.empty())
-    settings = readImportSettings(a.columns);
-  else if (const auto beside = importSettingsBeside(path))
-    settings = readImportSettings(*beside);
+  ImportSettings settings = a.columns.empty() ? settingsBeside(path) : readImportSettings(a.columns);
   if (!a.radius.empty()) settings.radius = positive("--radius", a.radius, "m");
   if (!a.timeStep.empty()) settings.timeStep = positive("--time-step", a.timeStep, "s");
   if (!a.frameInterval.empty()) settings.frameInterval = positive("--frame-interval", a.frameInterval, "s");

@@ -5,8 +5,8 @@
 #include "sim/base/error.h"
 #ifdef SANDGLASS_VIS
 #include "vis/readers/child_reader.h"
-#include "vis/readers/vtk_frame.h"
 #include "vis/readers/vti_field.h"
+#include "vis/readers/vtk_frame.h"
 #include "vis/readers/vtp_mesh.h"
 #endif
 

@@ -7,8 +7,8 @@
 #include "app/desktop/sweep_panel.h"
 #include "sim/base/error.h"
 #include "vis/readers/child_reader.h"
-#include "vis/readers/vtk_frame.h"
 #include "vis/readers/vti_field.h"
+#include "vis/readers/vtk_frame.h"
 #include "vis/readers/vtp_mesh.h"
 
 #include <CLI/CLI.hpp>

@@ -28,10 +28,7 @@ void MainWindow::mapColumns(const QString& path, const QString& reason) {
     auto found = std::make_shared<Found>();
     try {
       found->facts = foreignFacts(path.toStdString(), given ? &*given : nullptr);
-      if (given)
-        found->settings = *given;
-      else if (const auto beside = importSettingsBeside(found->facts.file))
-        found->settings = readImportSettings(*beside);
+      found->settings = given ? *given : settingsBeside(found->facts.file);
     } catch (const InputError& e) {
       for (const auto& sentence : e.sentences())
         found->faults << QString::fromStdString(sentence);

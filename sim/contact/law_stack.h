@@ -63,8 +63,8 @@ public:
   bool fullRadiusArm() const { return fullRadiusArm_; } ///< Law::fullRadiusArm of any law
   bool hasEvents() const { return events_; }
   const std::vector<std::string>& quantityNames() const { return quantityNames_; }
-  /// Quads written per pair: force; with friction also a torque; with couples those too.
-  /// Quads of output a pair; a law with a torque of its own leaves no couple beside it.
+  /// Quads written per pair: force; with friction, or for sums of overlaps, also a torque; with couples those
+  /// too, but for a law with a torque of its own, which takes them in.
   int outputQuads() const { return readsSpin_ && !ownTorque_ ? 3 : turning_ || sumsOverlaps_ ? 2 : 1; }
   int outputStride() const { return (mixed_ ? 2 : 4) * outputQuads(); } ///< doubles a pair, ParticleView
 

@@ -45,7 +45,8 @@ public:
 
   explicit PairForces(const LawStack& laws) : laws_(laws) {}
 
-  /// Whether the laws have a loop of their own for the grains that are bound, which is faster than one by one.
+  /// Whether the laws have a loop of their own for the grains that are bound, which is faster than one by
+  /// one.
   bool hasOwnLoop() const { return fusedLoop_ != nullptr; }
 
   /// Overlaps above this share of the smaller radius are reported.

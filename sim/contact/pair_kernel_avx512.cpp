@@ -160,12 +160,7 @@ void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupS
     most = _mm256_mask_max_pd(most, 7, speed, most);
     fine = _mm256_mask_cmp_pd_mask(fine, speed, limit, _CMP_LT_OQ);
   }
-  alignas(32) double m[4];
-  _mm256_store_pd(m, most);
-  speeds.x = m[0];
-  speeds.y = m[1];
-  speeds.z = m[2];
-  speeds.bad = speeds.bad || fine != 7;
+  tell(most, fine == 7, speeds);
 }
 
 } // namespace

@@ -9,6 +9,16 @@ namespace sandglass {
 
 namespace {
 
+/// What a group's motion says of its speeds; `fine`: all are below the limit.
+inline void tell(__m256d most, bool fine, Speeds& speeds) {
+  alignas(32) double m[4];
+  _mm256_store_pd(m, most);
+  speeds.x = m[0];
+  speeds.y = m[1];
+  speeds.z = m[2];
+  speeds.bad = speeds.bad || !fine;
+}
+
 void move(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
           const double* gravity, double speedLimit, Speeds& speeds) {
   const __m256d step = _mm256_set_pd(0, dt, dt, dt);
@@ -40,12 +50,7 @@ void move(const ParticleView& v, std::int64_t first, int count, const GroupSums&
     const __m256d turn = _mm256_and_pd(_mm256_mul_pd(_mm256_set1_pd(2.5), kick), xyz);
     _mm256_store_pd(r + 8, _mm256_add_pd(roll, _mm256_mul_pd(turn, _mm256_and_pd(torque, xyz))));
   }
-  alignas(32) double m[4];
-  _mm256_store_pd(m, most);
-  speeds.x = m[0];
-  speeds.y = m[1];
-  speeds.z = m[2];
-  speeds.bad = speeds.bad || _mm256_movemask_pd(fine) != 15;
+  tell(most, _mm256_movemask_pd(fine) == 15, speeds);
 }
 
 } // namespace

@@ -36,11 +36,11 @@ const FieldBlock::Column& FieldBlock::falloff(double decay, double reference, co
   reference_ = reference;
   axis_ = axis;
   const double nx = axis.x(), ny = axis.y(), nz = axis.z();
-  if (nx == 0.0 && ny == 0.0)
+  if (nx == 0.0 && ny == 0.0) {
     SANDGLASS_GRAINS(i) falloff_[i] = exponential(-decay * (nz * z[i] - reference));
-  else
-    SANDGLASS_GRAINS(i)
-  falloff_[i] = exponential(-decay * (nx * x[i] + ny * y[i] + nz * z[i] - reference));
+  } else {
+    SANDGLASS_GRAINS(i) falloff_[i] = exponential(-decay * (nx * x[i] + ny * y[i] + nz * z[i] - reference));
+  }
   return falloff_;
 }
 
@@ -54,7 +54,8 @@ FieldStack::FieldStack(const Scene& scene) {
   for (const FieldRole role : {FieldRole::lift, FieldRole::drag, FieldRole::spin})
     for (std::size_t k = 0; k < parts_.size(); ++k)
       if (parts_[k].role == role) order_.push_back(static_cast<int>(k));
-  overlaps_ = readsOverlaps(scene);
+  overlaps_ =
+      std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.field->readsOverlaps(); });
   spins_ = std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.role == FieldRole::spin; });
 }
 
@@ -238,13 +239,6 @@ void FieldStack::setWorkState(const std::vector<double>& state) {
                      "version");
   worked_ = state[0];
   std::copy(state.begin() + 1, state.end(), groupWork_.begin());
-}
-
-bool readsOverlaps(const Scene& scene) {
-  return std::any_of(scene.fields.begin(), scene.fields.end(), [](const FieldSpec& spec) {
-    const FieldKind* kind = findField(spec.what.kind);
-    return kind && kind->make(spec.what.parameters)->readsOverlaps();
-  });
 }
 
 double fastestFlow(const Scene& scene) {

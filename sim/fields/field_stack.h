@@ -18,6 +18,7 @@ public:
   explicit FieldStack(const Scene& scene);
 
   bool any() const { return !parts_.empty(); }
+  bool readsOverlaps() const { return overlaps_; } ///< FieldBlock::overlap
 
   /// Strength of a field over what the scene says, from now on; 0 switches it off.
   void setFactor(const std::string& name, double factor);
@@ -61,9 +62,6 @@ private:
   double worked_ = 0;             ///< [J] of groups of earlier lists
   std::vector<double> groupWork_; ///< [J] by group of grains
 };
-
-/// Whether a field of the scene reads sums of overlaps.
-bool readsOverlaps(const Scene& scene);
 
 /// Largest sum of the speeds of a scene's flows [m/s], an estimate.
 double fastestFlow(const Scene& scene);

@@ -1,31 +1,24 @@
 #include "sim/fields/flow_file.h"
 
 #include "sim/base/error.h"
+#include "sim/scene/from_file.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace sandglass {
 
 namespace {
 
-std::map<std::string, FlowReader>& readers() {
-  static std::map<std::string, FlowReader> all;
+ReadersByExtension<FlowReader>& readers() {
+  static ReadersByExtension<FlowReader> all;
   return all;
 }
 
 FrameField readFlow(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  const auto it = readers().find(extension);
-  if (it != readers().end()) return it->second(file);
-  std::string known;
-  for (const auto& [name, reader] : readers())
-    known += (known.empty() ? "" : ", ") + name;
+  if (const FlowReader* reader = readers().find(file)) return (*reader)(file);
+  const std::string known = readers().known();
   throw InputError(fmt::format("{}: a wind on a grid is read from {}; convert the file", file.string(),
                                known.empty() ? "no file by this program" : known));
 }
@@ -53,8 +46,8 @@ const std::vector<Vec3>& velocitiesOf(const FrameField& grid, const Parameters& 
 
 void check(const FrameField& grid, const std::vector<Vec3>& velocities, const std::string& file) {
   for (int k = 0; k < 3; ++k)
-    if (grid.points[k] < 1 || (grid.points[k] > 1 && !(grid.spacing[k] > 0.0)) || !std::isfinite(grid.spacing[k]) ||
-        !std::isfinite(grid.origin[k]))
+    if (grid.points[k] < 1 || (grid.points[k] > 1 && !(grid.spacing[k] > 0.0)) ||
+        !std::isfinite(grid.spacing[k]) || !std::isfinite(grid.origin[k]))
       throw InputError(fmt::format("{}: along {} it has {} points with a spacing of {} from {} on, but "
                                    "numbers are due, the spacing above 0",
                                    file, "xyz"[k], grid.points[k], grid.spacing[k], grid.origin[k]));
@@ -75,7 +68,7 @@ void check(const FrameField& grid, const std::vector<Vec3>& velocities, const st
 } // namespace
 
 void registerFlowReader(const std::string& extension, FlowReader reader) {
-  readers()[extension] = std::move(reader);
+  readers().add(extension, std::move(reader));
 }
 
 Parameters flowFromFile(const Parameters& p, const std::filesystem::path& baseFolder) {
@@ -85,17 +78,16 @@ Parameters flowFromFile(const Parameters& p, const std::filesystem::path& baseFo
       out.set(name, value);
   for (const char* key : {"points", "origin", "spacing", "velocities"})
     if (out.has(key)) throw InputError(fmt::format("it has both 'file' and '{}'; give one of them", key));
-  if (!p.has("scale"))
-    throw InputError("it lacks the key 'scale', the length of one unit of the file, such as scale = \"1 m\"");
+  const double scale = scaleOf(p, "1 m");
   const std::filesystem::path file = (baseFolder / p.text("file")).lexically_normal();
   const FrameField grid = readFlow(file);
   std::vector<Vec3> velocities = velocitiesOf(grid, p, file.string());
   check(grid, velocities, file.string());
-  const double scale = p.number("scale"), speed = p.number("velocity_scale", 1.0);
+  const double speed = p.number("velocity_scale", 1.0);
   for (Vec3& v : velocities)
     v *= speed;
   out.set("points", std::vector<double>(grid.points.begin(), grid.points.end()));
-  out.set("origin", Vec3(scale * grid.origin + (p.has("shift") ? p.vector("shift") : Vec3(Vec3::Zero()))));
+  out.set("origin", Vec3(scale * grid.origin + shiftOf(p)));
   Vec3 spacing = scale * grid.spacing;
   for (int k = 0; k < 3; ++k)
     if (grid.points[k] == 1) spacing[k] = 1.0; // a slice may have any

@@ -109,11 +109,6 @@ private:
   mutable std::optional<std::map<std::string, std::shared_ptr<const WallShape>>> walls_; ///< one scene a run
 };
 
-ImportSettings settingsBeside(const fs::path& file) {
-  const auto found = importSettingsBeside(file);
-  return found ? readImportSettings(*found) : ImportSettings{};
-}
-
 } // namespace
 
 std::unique_ptr<FrameSource> openFrames(const fs::path& path, const ImportSettings* settings) {

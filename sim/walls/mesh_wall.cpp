@@ -5,6 +5,7 @@
 // smooth_angle count as one, the deepest.
 
 #include "sim/base/error.h"
+#include "sim/scene/from_file.h"
 #include "sim/walls/mesh_file.h"
 #include "sim/walls/mesh_topology.h"
 #include "sim/walls/wall_kinds.h"
@@ -259,18 +260,8 @@ WallKind meshWallKind() {
         .unit = "1",
         .description = "STL, text or binary, beside the scene; its triangles become points and corners",
         .optional = true},
-       {.name = "scale",
-        .type = number,
-        .unit = "m",
-        .description = "length of one unit of the file",
-        .optional = true,
-        .minimum = 0,
-        .openMinimum = true},
-       {.name = "shift",
-        .type = vector,
-        .unit = "m",
-        .description = "added to all points of the file",
-        .optional = true},
+       fileScale(),
+       fileShift(),
        {.name = "points", .type = vectors, .unit = "m", .description = "instead of a file", .optional = true},
        {.name = "corners",
         .type = numbers,

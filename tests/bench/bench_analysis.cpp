@@ -1,8 +1,9 @@
 // Speed of the analyses on one machine: rows of
 //   case,program,threads,precision,grains,steps,cpu_s,wall_s,grain_steps_per_cpu_s,bytes_per_grain,check
-// with --csv FILE, --case NAME for one of them. A step is a frame. g(r) of uniform points is checked by its largest deviation from 1 beyond the hole, in
-// the errors that are quoted; the others by a number that must not change. Points are hard spheres of 0.3 by
-// random sequential addition for what looks at neighbours and voids, uniform points for g(r).
+// with --csv FILE, --case NAME for one of them. A step is a frame. g(r) of uniform points is checked by its
+// largest deviation from 1 beyond the hole, in the errors that are quoted; the others by a number that must
+// not change. Points are hard spheres of 0.3 by random sequential addition for what looks at neighbours and
+// voids, uniform points for g(r).
 
 #include "analysis/coarse_graining.h"
 #include "analysis/neighbour_list.h"

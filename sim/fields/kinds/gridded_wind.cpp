@@ -6,6 +6,7 @@
 #include "sim/base/math.h"
 #include "sim/fields/field.h"
 #include "sim/fields/field_kinds.h"
+#include "sim/scene/from_file.h"
 
 #include <fmt/format.h>
 
@@ -138,23 +139,13 @@ FieldKind griddedWindField() {
             .unit = "1",
             .description = "name of the velocity in the file; may be left out where it has one vector alone",
             .optional = true},
-           {.name = "scale",
-            .type = number,
-            .unit = "m",
-            .description = "length of one unit of the file",
-            .optional = true,
-            .minimum = 0,
-            .openMinimum = true},
+           fileScale(),
            {.name = "velocity_scale",
             .type = number,
             .unit = "m/s",
             .description = "velocity of one unit of the file; 1 m/s when left out",
             .optional = true},
-           {.name = "shift",
-            .type = vector,
-            .unit = "m",
-            .description = "added to all points of the file",
-            .optional = true},
+           fileShift(),
            {.name = "points",
             .type = numbers,
             .unit = "1",

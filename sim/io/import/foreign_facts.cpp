@@ -54,10 +54,7 @@ ForeignFacts foreignFacts(const fs::path& path, const ImportSettings* settings) 
   if (!isForeign(chosen))
     throw InputError(
         fmt::format("{}: this is a run of Sandglass, whose columns need no mapping", path.string()));
-  ImportSettings beside;
-  if (const auto found = settings ? std::nullopt : importSettingsBeside(chosen))
-    beside = readImportSettings(*found);
-  const ImportSettings& used = settings ? *settings : beside;
+  const ImportSettings used = settings ? *settings : settingsBeside(chosen);
   const ImportFile file(chosen);
   const ReaderKind& kind = readerFor(file);
   const auto format = kind.open(file, used);

@@ -325,4 +325,9 @@ std::optional<fs::path> importSettingsBeside(const fs::path& file) {
   return std::nullopt;
 }
 
+ImportSettings settingsBeside(const fs::path& file) {
+  const auto found = importSettingsBeside(file);
+  return found ? readImportSettings(*found) : ImportSettings{};
+}
+
 } // namespace sandglass

@@ -69,5 +69,7 @@ std::array<bool, 3> periodicDirections(const std::string& what, const std::strin
 /// The settings that lie beside a file: NAME.import.toml, else import.toml in its folder; none when neither
 /// is there.
 std::optional<std::filesystem::path> importSettingsBeside(const std::filesystem::path& file);
+/// What they say; without them the defaults. Throws InputError.
+ImportSettings settingsBeside(const std::filesystem::path& file);
 
 } // namespace sandglass

@@ -169,11 +169,10 @@ ReaderKind pvd() {
   return {"ParaView collection (PVD)", "'<VTKFile type=\"Collection\"' (.pvd)",
           [](std::string_view head) {
             const std::size_t at = head.find("<VTKFile");
-            constexpr std::size_t most = 1024;
-            return at < most &&
-                   head.substr(at, head.find('>', at) - at).find("Collection") != std::string_view::npos &&
-                   head.substr(at, head.find('>', at) - at).find("PartitionedDataSet") ==
-                       std::string_view::npos;
+            constexpr std::size_t most = 1024, none = std::string_view::npos;
+            if (at >= most) return false;
+            const std::string_view element = head.substr(at, head.find('>', at) - at);
+            return element.find("Collection") != none && element.find("PartitionedDataSet") == none;
           },
           [](const ImportFile& file, const ImportSettings& settings) -> std::unique_ptr<FrameFormat> {
             return std::make_unique<Pvd>(file, settings);

@@ -20,7 +20,7 @@ struct RawFrame {
   std::optional<double> time; ///< in the file's unit
   std::optional<std::int64_t> step;
   std::optional<Domain> box; ///< in the file's unit
-  Vec3 tilt = Vec3::Zero(); ///< xy, xz, yz of the box: its edges are (lx, 0, 0), (xy, ly, 0), (xz, yz, lz)
+  Vec3 tilt = Vec3::Zero();  ///< xy, xz, yz of the box: its edges are (lx, 0, 0), (xy, ly, 0), (xz, yz, lz)
   std::vector<RawColumn> columns;
   std::size_t rows = 0;
   std::uint64_t firstLine = 0;      ///< of the rows, which follow each other line by line; 0: they do not

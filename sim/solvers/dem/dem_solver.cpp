@@ -31,11 +31,12 @@ int materialIndex(const Scene& scene, const std::string& name) {
   throw InputError(fmt::format("there is no material '{}'", name));
 }
 
-LawStack stackWith(const Scene& scene, const std::vector<std::shared_ptr<const Law>>& added) {
+LawStack stackWith(const Scene& scene, const std::vector<std::shared_ptr<const Law>>& added,
+                   const FieldStack& fields) {
   LawStack stack(scene);
   for (const auto& law : added)
     stack.add(law);
-  if (readsOverlaps(scene)) stack.sumOverlaps();
+  if (fields.readsOverlaps()) stack.sumOverlaps();
   return stack;
 }
 
@@ -43,10 +44,10 @@ LawStack stackWith(const Scene& scene, const std::vector<std::shared_ptr<const L
 
 DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
                      const std::vector<std::shared_ptr<const Law>>& added)
-    : scene_(scene), wallLoads_(options.wallLoads), laws_(stackWith(scene, added)),
+    : scene_(scene), wallLoads_(options.wallLoads), fields_(scene), laws_(stackWith(scene, added, fields_)),
       parallel_(options.threads),
       list_(scene.domain, laws_.historySize(), laws_.outputStride(), laws_.hasEvents()), pairForces_(laws_),
-      wallContacts_(laws_), across_(laws_, scene.sector()), fields_(scene),
+      wallContacts_(laws_), across_(laws_, scene.sector()),
       loop_(grains_, list_, pairForces_, wallContacts_, across_, fields_, parallel_), frozen_(scene),
       gravity_(scene.gravity), lives_(scene) {
   if (across_.used() && laws_.hasEvents())
@@ -159,20 +160,16 @@ const DemSolver::FullStep& DemSolver::fullStep(bool withForces) const {
   full.spin.resize(grains_.turning ? n : 0);
   if (withForces) evaluate(full.force, full.torque);
   full.forcesValid = withForces;
-  for (std::size_t i = 0; i < n && scene_.accuracy.semiImplicit; ++i) {
-    full.velocity[i] = grains_.motion[i].vec();
-    if (grains_.turning) full.spin[i] = grains_.spin(i);
-  }
-  for (std::size_t i = 0; i < n && !scene_.accuracy.semiImplicit; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (scene_.accuracy.semiImplicit || frozen_.holds(grains_.species[i])) { // as they are
+      full.velocity[i] = grains_.motion[i].vec();
+      if (grains_.turning) full.spin[i] = grains_.spin(i);
+      continue;
+    }
     const double kick = halfStep() * grains_.motion[i].w;
     full.velocity[i] = grains_.motion[i].vec() + kick * full.force[i].vec() + halfStep() * gravity_;
     if (grains_.turning)
       full.spin[i] = grains_.spin(i) + halfStep() / grains_.inertia(i) * full.torque[i].vec();
-  }
-  for (std::size_t i = 0; i < n && frozen_.any(); ++i) {
-    if (!frozen_.holds(grains_.species[i])) continue;
-    full.velocity[i] = grains_.motion[i].vec();
-    if (grains_.turning) full.spin[i] = grains_.spin(i);
   }
   full.valid = true;
   return full;

@@ -106,6 +106,7 @@ private:
 
   Scene scene_;
   bool wallLoads_; ///< in frames
+  mutable FieldStack fields_;
   LawStack laws_;
   mutable Parallel parallel_;
   GrainStore grains_;
@@ -113,7 +114,6 @@ private:
   PairForces pairForces_;
   mutable WallContacts wallContacts_;
   mutable SectorContacts across_; ///< the faces of a wedge
-  mutable FieldStack fields_;
   mutable ParticleLoop loop_;
   FrozenGrains frozen_;
   mutable FullStep atFullStep_;

@@ -49,7 +49,7 @@ void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, double
     const auto add = [&](const auto* numbers) {
       for (int q = 0; q < view.outputQuads; ++q) {
         const double factor = q == 1 ? 1.0 : sign;
-        for (int k = 0; k < 4; ++k) // one register; the last is zero
+        for (int k = 0; k < 4; ++k) // one register
           sum[4 * q + k] += factor * numbers[4 * q + k];
       }
     };
