@@ -3,12 +3,10 @@
 #include "analysis/quasi_random.h"
 #include "analysis/voronoi.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -80,23 +78,31 @@ std::vector<EmptySphere> unique(const std::vector<EmptySphere>& spheres, double 
   return kept;
 }
 
-/// The spheres that work(i, spheres) adds for i from 0 to n, in the order of i whoever does the work.
-template <class Work> std::vector<EmptySphere> gathered(std::size_t n, Work&& work) {
+/// The Voronoi vertices with a positive radius, in the order of the grains whoever does the work. Cells that
+/// meet in a vertex share it: that of the first grain stands for all, as far as the faces tell.
+std::vector<EmptySphere> vertexSpheres(const Frame& frame, const VoronoiCells& cells,
+                                       const SurfaceDistance& distance) {
   constexpr std::size_t block = 1024;
+  const std::size_t n = frame.size();
   std::vector<std::vector<EmptySphere>> pieces((n + block - 1) / block);
   tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t b) {
-    for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i)
-      work(i, pieces[b]);
+    std::vector<char> listed;
+    for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i) {
+      const auto vertices = cells.vertices(i);
+      listed.assign(vertices.size(), 0);
+      for (const auto& face : cells.faces(i))
+        if (face.other >= 0 && face.other < static_cast<int>(i))
+          for (const int c : cells.corners(i, face))
+            listed[static_cast<std::size_t>(c)] = 1;
+      for (std::size_t v = 0; v < vertices.size(); ++v) {
+        const double radius = (vertices[v] - frame.position[i]).norm() - distance.largestRadius();
+        if (!listed[v] && radius > 0) pieces[b].push_back({distance.wrapped(vertices[v]), radius, false});
+      }
+    }
   });
-  std::size_t size = 0;
-  for (const auto& piece : pieces)
-    size += piece.size();
   std::vector<EmptySphere> all;
-  all.reserve(size);
-  for (auto& piece : pieces) {
+  for (const auto& piece : pieces)
     all.insert(all.end(), piece.begin(), piece.end());
-    std::vector<EmptySphere>().swap(piece);
-  }
   return all;
 }
 
@@ -126,13 +132,7 @@ std::vector<EmptySphere> holes(const Frame& frame, const VoronoiCells& cells, co
                                const Region& region, const VoidPoints& points, double diameter) {
   std::vector<EmptySphere> found;
   if (distance.equalGrains()) {
-    const auto vertices = gathered(frame.size(), [&](std::size_t i, std::vector<EmptySphere>& spheres) {
-      for (const Vec3& v : cells.vertices(i)) {
-        const double radius = (v - frame.position[i]).norm() - distance.largestRadius();
-        if (radius > 0) spheres.push_back({distance.wrapped(v), radius, false});
-      }
-    });
-    found = unique(vertices, diameter);
+    found = unique(vertexSpheres(frame, cells, distance), diameter);
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
       EmptySphere& s = found[k];
       const double walls = distance.toWalls(s.centre);
@@ -145,98 +145,6 @@ std::vector<EmptySphere> holes(const Frame& frame, const VoronoiCells& cells, co
   }
   std::erase_if(found, [&](const EmptySphere& s) { return !(s.radius > 0) || !region.contains(s.centre); });
   return unique(found, diameter);
-}
-
-std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells& cells,
-                                          const SurfaceDistance& distance, const Region& region,
-                                          const std::vector<EmptySphere>& holes, const VoidPoints& points,
-                                          int level) {
-  std::vector<EmptySphere> found;
-  if (!distance.equalGrains()) {
-    // Every void point has its own sphere; those on the way uphill are larger and still contain it.
-    const double step = 0.5 * distance.largestRadius() / (level + 1);
-    found = gathered(points.point.size(), [&](std::size_t k, std::vector<EmptySphere>& spheres) {
-      Vec3 x = points.point[k];
-      for (int n = 0; n < 2 * (level + 1); ++n) {
-        x += step * distance.toGrains(x).away;
-        if (!region.contains(x)) break;
-        if (const double radius = distance(x); radius > 0)
-          spheres.push_back({distance.wrapped(x), radius, false});
-      }
-    });
-  } else {
-    // The centre of a largest sphere about a point lies on a Voronoi vertex, edge or face. Each face once.
-    found = gathered(frame.size(), [&](std::size_t i, std::vector<EmptySphere>& spheres) {
-      const auto vertices = cells.vertices(i);
-      const Vec3& own = frame.position[i];
-      const auto add = [&](const Vec3& c, bool cut) {
-        const double radius = cut ? distance(c) : (c - own).norm() - distance.largestRadius();
-        if (radius > 0 && region.contains(c)) spheres.push_back({distance.wrapped(c), radius, false});
-      };
-      for (const auto& face : cells.faces(i)) {
-        if (face.other >= 0 && face.other < static_cast<int>(i)) continue;
-        const auto corners = cells.corners(i, face);
-        const bool cut = face.other < 0 || cells.atWall[i];
-        Vec3 middle = Vec3::Zero();
-        for (const int c : corners)
-          middle += vertices[static_cast<std::size_t>(c)] / static_cast<double>(corners.size());
-        for (std::size_t c = 0; c < corners.size(); ++c) {
-          const Vec3& a = vertices[static_cast<std::size_t>(corners[c])];
-          const Vec3& b = vertices[static_cast<std::size_t>(corners[(c + 1) % corners.size()])];
-          for (int n = 1; n <= level; ++n)
-            add(a + (b - a) * n / (level + 1), cut);
-          for (int n = 1; n <= level / 2; ++n)
-            add(a + (middle - a) * n / (level / 2 + 1), cut);
-        }
-        if (level > 0) add(middle, cut);
-      }
-    });
-  }
-  found.insert(found.end(), holes.begin(), holes.end());
-  return found;
-}
-
-std::vector<double> climbedSizes(const SurfaceDistance& distance, const Region& region,
-                                 const VoidPoints& points, double diameter) {
-  std::vector<double> sizes(points.point.size());
-  tbb::parallel_for(std::size_t{0}, sizes.size(), [&](std::size_t k) {
-    sizes[k] = climbAbout(distance, region, points.point[k], 0.1 * diameter, 6e-3 * diameter).radius;
-  });
-  return sizes;
-}
-
-std::vector<double> largestContaining(const VoidPoints& points, const std::vector<EmptySphere>& spheres,
-                                      const Domain& domain, double diameter) {
-  // The greatest of all does not depend on order; spheres that follow each other lie near each other.
-  std::vector<Vec3> wrapped = points.point;
-  const CellGrid grid(wrapped, domain, 0.5 * diameter);
-  const auto axes = grid.axes();
-  std::vector<std::atomic<double>> best(points.point.size());
-  for (std::size_t s = 0; s < best.size(); ++s)
-    best[s] = points.distance[grid.original(s)];
-  const double *px = grid.coordinates(0), *py = grid.coordinates(1), *pz = grid.coordinates(2);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, spheres.size(), 256), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k < range.end(); ++k) {
-      const EmptySphere& sphere = spheres[k];
-      const std::array<double, 3> c{sphere.centre[axes[0]], sphere.centre[axes[1]], sphere.centre[axes[2]]};
-      const double r2 = sphere.radius * sphere.radius;
-      grid.around(c, sphere.radius, -1, [&](std::size_t begin, std::size_t end, const auto& shift) {
-        for (std::size_t s = begin; s < end; ++s) {
-          const double dx = px[s] + shift[0] - c[0], dy = py[s] + shift[1] - c[1],
-                       dz = pz[s] + shift[2] - c[2];
-          if (dx * dx + dy * dy + dz * dz > r2) continue;
-          double now = best[s].load(std::memory_order_relaxed);
-          while (now < sphere.radius &&
-                 !best[s].compare_exchange_weak(now, sphere.radius, std::memory_order_relaxed)) {
-          }
-        }
-      });
-    }
-  });
-  std::vector<double> result(best.size());
-  for (std::size_t s = 0; s < best.size(); ++s)
-    result[grid.original(s)] = best[s];
-  return result;
 }
 
 DistanceGrid distanceGrid(const SurfaceDistance& distance, const Region& region, double spacing) {

@@ -3,11 +3,11 @@
 // Phys. Rev. E 107, 015307, 2023). Each is a function of its own; the results print which one they are.
 //
 //   V1  Torquato: random points in the voids, distance to the nearest solid surface
-//   V2  Gelb & Gubbins (Langmuir 15, 305, 1999): for the same points the largest empty sphere that contains
-//   them V3  hole radii: Voronoi vertices, distance to the centres less the radius; each vertex once V5
-//   cavities: connected parts of the space left to the centre of a probe sphere, on a grid gridded hole sizes
-//   (Rycroft, PhD thesis, MIT, 2007): nodes of a grid, nearest-centre distance less the radius, cut
-//       by the box's planes and a cap
+//   V2  Gelb & Gubbins: for the same points the largest empty sphere that contains them (containing_sizes.h)
+//   V3  hole radii: Voronoi vertices, distance to the centres less the radius; each vertex once
+//   V5  cavities: connected parts of the space left to the centre of a probe sphere, on a grid
+//   gridded hole sizes (Rycroft, PhD thesis, MIT, 2007): nodes of a grid, nearest-centre distance less the
+//       radius, cut by the box's planes and a cap
 //
 // Points lie in the region (no clearance from walls, below the free surface). Wall voids: points nearer to a
 // wall than `wallDistance`, and spheres that a wall limits.
@@ -40,25 +40,8 @@ VoidPoints voidPoints(const SurfaceDistance& distance, const Region& region, std
 std::vector<EmptySphere> holes(const Frame& frame, const VoronoiCells& cells, const SurfaceDistance& distance,
                                const Region& region, const VoidPoints& points, double diameter);
 
-/// Voronoi cells with vertices, radii left aside, for holes() and candidateSpheres().
+/// Voronoi cells with vertices, radii left aside, for holes() and containingSizes().
 VoronoiCells cellsForVoids(const Frame& frame, const std::optional<Vec3>& up, double diameter);
-
-/// Empty spheres for V2: the holes, and on Voronoi edges and faces `level` points between (equal grains), or
-/// spheres that the void points meet on their way uphill (unequal ones). Each is empty, so that V2 can only
-/// come out too small.
-std::vector<EmptySphere> candidateSpheres(const Frame& frame, const VoronoiCells& cells,
-                                          const SurfaceDistance& distance, const Region& region,
-                                          const std::vector<EmptySphere>& holes, const VoidPoints& points,
-                                          int level);
-
-/// The largest sphere about each void point that a climb from it finds: where V2 begins.
-std::vector<double> climbedSizes(const SurfaceDistance& distance, const Region& region,
-                                 const VoidPoints& points, double diameter);
-
-/// V2 of each void point: the largest of the spheres that contains it, at least `points.distance`. Uses the
-/// calling thread's TBB arena; equal for any number of threads.
-std::vector<double> largestContaining(const VoidPoints& points, const std::vector<EmptySphere>& spheres,
-                                      const Domain& domain, double diameter);
 
 struct Cavities {
   std::vector<double> volumes; ///< [m^3], largest first

@@ -317,7 +317,7 @@ VoronoiCells voronoiCells(const Frame& frame, const VoronoiOptions& options) {
   cells.corner.resize(cells.cornerStart.back());
   cells.face.resize(cells.start.back());
   cells.vertex.resize(cells.vertexStart.back());
-  for (std::size_t b = 0; b < blocks; ++b) {
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     std::size_t face = 0, vertex = 0, corner = 0;
     for (std::size_t s = b * block; s < std::min(n, (b + 1) * block); ++s) {
       const std::uint32_t i = cutter.grid().original(s);
@@ -328,7 +328,7 @@ VoronoiCells voronoiCells(const Frame& frame, const VoronoiOptions& options) {
       for (std::size_t k = cells.cornerStart[i]; k < cells.cornerStart[i + 1]; ++k)
         cells.corner[k] = pieces[b].corners[corner++];
     }
-  }
+  });
   return cells;
 }
 

@@ -1,5 +1,6 @@
 // Void sizes, each by its name.
 
+#include "analysis/containing_sizes.h"
 #include "analysis/grain_sizes.h"
 #include "analysis/histogram.h"
 #include "analysis/kinds/kinds.h"
@@ -94,10 +95,8 @@ private:
     }
     some.distance = climbedSizes(distance, region, some, d);
     const int level = static_cast<int>(knobs_.integer("v2_level"));
-    const auto fine = largestContaining(
-        some, candidateSpheres(frame, cells, distance, region, found, some, level), frame.domain, d);
-    const auto coarse = largestContaining(
-        some, candidateSpheres(frame, cells, distance, region, found, some, level / 2), frame.domain, d);
+    const auto fine = containingSizes(frame, cells, distance, region, found, some, level, d);
+    const auto coarse = containingSizes(frame, cells, distance, region, found, some, level / 2, d);
     for (std::size_t k = 0; k < fine.size(); ++k)
       v2Error_.push_back((fine[k] - coarse[k]) / d);
     v2_.add(fine, some.nearWall, d);

@@ -1,7 +1,7 @@
 // Holes of lattices, one sphere in a box, random points, unequal spheres.
 
+#include "analysis/containing_sizes.h"
 #include "analysis/registry.h"
-#include "analysis/void_sizes.h"
 #include "tests/analysis/lattices.h"
 
 #include <catch2/catch.hpp>
@@ -119,8 +119,7 @@ TEST_CASE("V2 of a simple cubic lattice against a brute force", "[voids]") {
   const auto found = holes(frame, cells, distance, region, points, 1);
   const auto own = points.distance;
   points.distance = climbedSizes(distance, region, points, 1);
-  const auto v2 = largestContaining(
-      points, candidateSpheres(frame, cells, distance, region, found, points, 7), frame.domain, 1);
+  const auto v2 = containingSizes(frame, cells, distance, region, found, points, 7, 1);
   std::size_t tooSmall = 0;
   double difference = 0;
   for (std::size_t k = 0; k < points.point.size(); ++k) {

@@ -6,10 +6,10 @@
 // voids, uniform points for g(r).
 
 #include "analysis/coarse_graining.h"
+#include "analysis/containing_sizes.h"
 #include "analysis/neighbour_list.h"
 #include "analysis/pair_correlation.h"
 #include "analysis/steinhardt.h"
-#include "analysis/void_sizes.h"
 #include "analysis/voronoi.h"
 #include "sim/base/random.h"
 #include "sim/walls/wall_registry.h"
@@ -181,8 +181,7 @@ std::string v2(const Frame& frame) {
   const VoronoiCells cells = cellsForVoids(frame, {}, 1);
   const auto found = holes(frame, cells, distance, region, points, 1);
   points.distance = climbedSizes(distance, region, points, 1);
-  const auto sizes = largestContaining(
-      points, candidateSpheres(frame, cells, distance, region, found, points, 3), frame.domain, 1);
+  const auto sizes = containingSizes(frame, cells, distance, region, found, points, 3, 1);
   return fmt::format("mean {:.9f}",
                      std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size()));
 }

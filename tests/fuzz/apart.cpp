@@ -1,11 +1,11 @@
 // Files that other people's libraries read, VTK in a process of its own and HDF5 in this one, damaged at
 // random from a seed: each must be read or refused with an InputError, and nothing else.
 //
-//   fuzz_apart PROGRAM DATA-FOLDER COUNT [SECONDS]
+//   fuzz_apart PROGRAM DATA-FOLDER COUNT [SECONDS [EARLIER]]
 //
-// COUNT damaged files of each kind, or as many as SECONDS of wall time hold. HDF5 files are read in a fork of
-// this program, so that a crash is counted and not suffered. Prints the executions; exits 1 when there was a
-// fault.
+// COUNT damaged files of each kind, or as many as SECONDS of processor time hold, children included. EARLIER
+// executions are behind: the seeds go on from there. HDF5 files are read in a fork of this program, so that a
+// crash is counted and not suffered. Prints the executions; exits 1 when there was a fault.
 
 #include "sim/base/error.h"
 #include "sim/base/random.h"
@@ -14,7 +14,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -71,6 +70,18 @@ std::string damaged(std::string bytes, RandomStream& random) {
   return bytes;
 }
 
+/// Processor time of this program and its children, in seconds.
+double processorTime() {
+  double seconds = 0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage used{};
+    ::getrusage(who, &used);
+    for (const timeval& t : {used.ru_utime, used.ru_stime})
+      seconds += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  }
+  return seconds;
+}
+
 /// Reads all in a fork; whether it ended as a program that has its errors in hand.
 bool readInFork(const fs::path& file) {
   const pid_t pid = ::fork();
@@ -99,13 +110,12 @@ bool readInFork(const fs::path& file) {
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    fmt::print(stderr, "usage: fuzz_apart PROGRAM DATA-FOLDER COUNT [SECONDS]\n");
+    fmt::print(stderr, "usage: fuzz_apart PROGRAM DATA-FOLDER COUNT [SECONDS [EARLIER]]\n");
     return 2;
   }
   const fs::path program = argv[1], data = argv[2];
   const std::size_t count = std::stoul(argv[3]);
   const double seconds = argc > 4 ? std::stod(argv[4]) : 0;
-  const auto start = std::chrono::steady_clock::now();
   const fs::path folder = fs::temp_directory_path() / fmt::format("sandglass-apart-{}", ::getpid());
   fs::create_directories(folder);
   std::size_t executions = 0, faults = 0, refused = 0;
@@ -116,12 +126,13 @@ int main(int argc, char** argv) {
                                     data / "vtk/grid.vtkhdf",
                                     data / "vtk/steps.vtkhdf"};
   const auto more = [&](std::size_t round) {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    return seconds > 0 ? spent.count() < seconds : round < count;
+    return seconds > 0 ? processorTime() < seconds : round < count;
   };
+  const std::size_t earlier = argc > 5 ? std::stoul(argv[5]) / seeds.size() : 0; // rounds
   for (std::size_t round = 0; more(round); ++round)
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-      RandomStream random(4711, RandomPurpose::test, static_cast<std::int64_t>(round * seeds.size() + s));
+      RandomStream random(4711, RandomPurpose::test,
+                          static_cast<std::int64_t>((earlier + round) * seeds.size() + s));
       const fs::path file = folder / ("damaged" + seeds[s].extension().string());
       std::ofstream(file, std::ios::binary) << damaged(bytesOf(seeds[s]), random);
       bool good = true;
@@ -139,7 +150,7 @@ int main(int argc, char** argv) {
       ++executions;
       if (good) continue;
       ++faults;
-      const fs::path kept = fmt::format("fault-{}-{}{}", round, s, file.extension().string());
+      const fs::path kept = fmt::format("fault-{}-{}{}", earlier + round, s, file.extension().string());
       fs::copy_file(file, kept, fs::copy_options::overwrite_existing);
       fmt::print("fault: {}\n", kept.string());
     }

@@ -66,11 +66,13 @@ private:
 
 /// Fewer where the file ends or its packing breaks off: who reads on will meet the fault with its place.
 std::string firstBytes(ByteStream& stream, std::size_t most) {
-  std::string bytes(most, '\0');
+  constexpr std::size_t firstRoom = std::size_t{1} << 12;
+  std::string bytes;
   std::size_t have = 0;
   try {
     while (have < most) {
-      const std::size_t got = stream.read(bytes.data() + have, most - have);
+      if (have == bytes.size()) bytes.resize(std::min(most, std::max(firstRoom, 2 * have)));
+      const std::size_t got = stream.read(bytes.data() + have, bytes.size() - have);
       if (got == 0) break;
       have += got;
     }
