@@ -36,10 +36,11 @@ constexpr std::size_t mostKeyRows = 3;
 // DejaVu Sans is about half of its size wide on average.
 constexpr float letterWidth = 0.51F, wideLetterWidth = 0.58F;
 
-void setText(vtkContext2D* painter, float size, double strength, bool bold = false) {
+void setText(vtkContext2D* painter, const std::array<double, 3>& ground, float size, double strength,
+             bool bold = false) {
   vtkTextProperty* style = painter->GetTextProp();
   setFont(style, static_cast<int>(std::lround(size)), bold);
-  const auto ink = inkOn({1, 1, 1}, strength);
+  const auto ink = inkOn(ground, strength);
   style->SetColor(ink[0], ink[1], ink[2]);
   style->SetOpacity(1);
   style->SetOrientation(0);
@@ -56,6 +57,15 @@ float widthOf(vtkContext2D* painter, const std::string& text) {
 } // namespace
 
 vtkStandardNewMacro(ChartFrame);
+
+SeriesStyle ChartFrame::styleOf(std::size_t series) const {
+  SeriesStyle style = vis::styleOf(curve.series[series], series);
+  // On dark ground dark colours would be lost: towards white by a third, which leaves them apart.
+  if (inkOn(ground, 1)[0] > 0.5)
+    for (auto& channel : style.colour)
+      channel = static_cast<std::uint8_t>(channel + (255 - channel) / 3);
+  return style;
+}
 
 bool ChartFrame::hasKey() const {
   return curve.series.size() > 1 || (curve.series.size() == 1 && !curve.series[0].name.empty());
@@ -125,7 +135,7 @@ bool ChartFrame::Paint(vtkContext2D* painter) {
   const float s = chartScale(width, height), h = static_cast<float>(height);
   float y = h - s * (margin / 2 + titleLine / 2);
   if (!curve.title.empty()) {
-    setText(painter, titleSize * s, 0.85, true);
+    setText(painter, ground, titleSize * s, 0.85, true);
     painter->DrawString(std::round(margin * s), std::round(y), curve.title.c_str());
     y -= s * (titleLine + keyLine) / 2;
   }
@@ -133,7 +143,7 @@ bool ChartFrame::Paint(vtkContext2D* painter) {
   paintMarks(painter);
   paintAxisTitles(painter);
   const auto lines = definitionLines();
-  setText(painter, smallSize * s, 0.6);
+  setText(painter, ground, smallSize * s, 0.6);
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const auto below = static_cast<float>(lines.size() - 1 - k);
     painter->DrawString(std::round(margin * s), std::round(s * (margin / 2 + smallLine * (below + 0.5F))),
@@ -153,7 +163,7 @@ void ChartFrame::paintKeyRow(vtkContext2D* painter, const std::vector<std::size_
   const float s = chartScale(width, height);
   float x = std::round(margin * s);
   for (const std::size_t k : row) {
-    const SeriesStyle style = styleOf(curve.series[k], k);
+    const SeriesStyle style = styleOf(k);
     const bool scatter = curve.series[k].scatter;
     const float sample = (scatter ? pointWidth : sampleWidth) * s;
     painter->GetPen()->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
@@ -167,7 +177,7 @@ void ChartFrame::paintKeyRow(vtkContext2D* painter, const std::vector<std::size_
       painter->GetBrush()->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
       painter->DrawMarkers(style.marker, false, middle, 1);
     }
-    setText(painter, keySize * s, 0.8);
+    setText(painter, ground, keySize * s, 0.8);
     const std::string& name = curve.series[k].name;
     painter->DrawString(std::round(x + sample + sampleGap * s), y, name.c_str());
     x += std::round(sample + sampleGap * s + widthOf(painter, name) + entryGap * s);
@@ -183,7 +193,7 @@ ChartFrame::PlotArea ChartFrame::plotArea() const {
 void ChartFrame::paintAxisTitles(vtkContext2D* painter) const {
   const float s = chartScale(width, height);
   const PlotArea area = plotArea();
-  setText(painter, axisSize * s, 0.8);
+  setText(painter, ground, axisSize * s, 0.8);
   painter->GetTextProp()->SetJustificationToCentered();
   const float belowAxis = margins().bottom - axisLine * s / 2;
   painter->DrawString(std::round((area.x0 + area.x1) / 2), std::round(belowAxis), xTitle.c_str());
@@ -191,7 +201,7 @@ void ChartFrame::paintAxisTitles(vtkContext2D* painter) const {
   const float lowest = margins().bottom - axisLine * s, room = area.y1 - lowest;
   const float size =
       std::clamp(axisSize * s * room / widthOf(painter, yTitle), 0.75F * axisSize * s, axisSize * s);
-  setText(painter, size, 0.8);
+  setText(painter, ground, size, 0.8);
   painter->GetTextProp()->SetJustificationToCentered();
   const float half = widthOf(painter, yTitle) / 2;
   const float y = std::min((area.y0 + area.y1) / 2, area.y1 - half);
@@ -208,8 +218,9 @@ void ChartFrame::paintMarks(vtkContext2D* painter) const {
     const std::string* text;
   };
   std::vector<Label> labels;
-  setText(painter, markSize * s, 0.65);
-  const auto ink = inkOn({1, 1, 1}, 0.55);
+  setText(painter, ground, markSize * s, 0.65);
+  const auto ink = inkOn(ground, 0.55);
+  const Rgb paper = rgb(ground);
   painter->GetPen()->SetColorF(ink[0], ink[1], ink[2]);
   painter->GetPen()->SetLineType(vtkPen::DASH_LINE);
   painter->GetPen()->SetWidth(1.3F * s);
@@ -241,7 +252,7 @@ void ChartFrame::paintMarks(vtkContext2D* painter) const {
         other = static_cast<std::size_t>(-1);
       }
     painter->GetPen()->SetLineType(vtkPen::NO_PEN);
-    painter->GetBrush()->SetColor(255, 255, 255, 215);
+    painter->GetBrush()->SetColor(paper[0], paper[1], paper[2], 215);
     painter->DrawRect(label.x - gap / 2, label.y - line / 2, label.wide + gap, line);
     painter->DrawString(std::round(label.x), std::round(label.y), label.text->c_str());
   }

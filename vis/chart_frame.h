@@ -3,6 +3,7 @@
 // lines.
 
 #include "analysis/result.h"
+#include "vis/chart_style.h"
 
 #include <vtkContextItem.h>
 
@@ -27,8 +28,10 @@ public:
   std::string xTitle, yTitle;  ///< with unit and power of ten
   vtkChartXY* chart = nullptr; ///< painted before this item: marks are placed by its axes
   int width = 0, height = 0;
+  std::array<double, 3> ground{1, 1, 1};
 
   ChartMargins margins() const;
+  SeriesStyle styleOf(std::size_t series) const; ///< on this ground
   bool Paint(vtkContext2D* painter) override;
 
   /// The rectangle between the axes [pixel from the lower left corner]; once painted.

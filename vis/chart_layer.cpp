@@ -107,7 +107,9 @@ void addLine(vtkChartXY* chart, const Points& p, const SeriesStyle& style, float
 }
 
 /// Returns the axis' title; ChartFrame writes it where it meets no label.
-std::string setUpAxis(vtkAxis* axis, const analysis::Axis& meaning, const Span& span, int ticks, float s) {
+std::string setUpAxis(vtkAxis* axis, const analysis::Axis& meaning, const Span& span, int ticks,
+                      const ChartFrame& frame) {
+  const float s = chartScale(frame.width, frame.height);
   axis->SetBehavior(vtkAxis::FIXED);
   axis->SetRange(span.low, span.high);
   const Ticks nice = niceTicks(span.low, span.high, ticks);
@@ -119,7 +121,8 @@ std::string setUpAxis(vtkAxis* axis, const analysis::Axis& meaning, const Span& 
   }
   axis->SetCustomTickPositions(positions, labels);
   axis->SetTitle("");
-  const auto ink = inkOn({1, 1, 1}, 0.8), faint = inkOn({1, 1, 1}, 0.10), line = inkOn({1, 1, 1}, 0.55);
+  const auto ink = inkOn(frame.ground, 0.8), faint = inkOn(frame.ground, 0.10),
+             line = inkOn(frame.ground, 0.55);
   setFont(axis->GetLabelProperties(), static_cast<int>(std::lround(13 * s)));
   axis->GetLabelProperties()->SetColor(ink[0], ink[1], ink[2]);
   axis->GetPen()->SetColorF(line[0], line[1], line[2]);
@@ -132,12 +135,13 @@ std::string setUpAxis(vtkAxis* axis, const analysis::Axis& meaning, const Span& 
 } // namespace
 
 ChartLayer::ChartLayer() {
-  renderer_->SetBackground(1, 1, 1);
   actor_->GetScene()->SetRenderer(renderer_);
   renderer_->AddActor(actor_);
 }
 
-void ChartLayer::show(const analysis::Curve& curve, int width, int height) {
+void ChartLayer::show(const analysis::Curve& curve, int width, int height,
+                      const std::array<double, 3>& ground) {
+  renderer_->SetBackground(ground[0], ground[1], ground[2]);
   const float s = chartScale(width, height);
   vtkNew<vtkChartXY> chart;
   vtkNew<ChartFrame> frame;
@@ -145,10 +149,11 @@ void ChartLayer::show(const analysis::Curve& curve, int width, int height) {
   frame->chart = chart;
   frame->width = width;
   frame->height = height;
+  frame->ground = ground;
 
   const ChartRange range = chartRange(curve);
-  frame->xTitle = setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), curve.x, range.x, 7, s);
-  frame->yTitle = setUpAxis(chart->GetAxis(vtkAxis::LEFT), curve.y, range.y, 6, s);
+  frame->xTitle = setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), curve.x, range.x, 7, *frame);
+  frame->yTitle = setUpAxis(chart->GetAxis(vtkAxis::LEFT), curve.y, range.y, 6, *frame);
   std::vector<Points> points;
   for (const auto& series : curve.series)
     points.push_back(finitePoints(series));
@@ -158,13 +163,13 @@ void ChartLayer::show(const analysis::Curve& curve, int width, int height) {
   };
   for (std::size_t k = 0; k < points.size(); ++k) // errors lie under all lines
     if (hasError(points[k]) && points[k].x.size() > markedPoints)
-      addBand(chart, points[k], styleOf(curve.series[k], k).colour);
+      addBand(chart, points[k], frame->styleOf(k).colour);
     else if (hasError(points[k]))
-      addBars(chart, points[k], styleOf(curve.series[k], k).colour, cap, 1.4F * s);
+      addBars(chart, points[k], frame->styleOf(k).colour, cap, 1.4F * s);
   for (const bool ring : {true, false}) // rings are discs under the points
     for (std::size_t k = 0; k < points.size(); ++k)
       if (!points[k].x.empty() && curve.series[k].ring == ring)
-        addLine(chart, points[k], styleOf(curve.series[k], k), s);
+        addLine(chart, points[k], frame->styleOf(k), s);
 
   const ChartMargins margins = frame->margins();
   chart->SetAutoSize(false);

@@ -329,13 +329,14 @@ ChartPlace Renderer::chartPlace() const {
   return impl_->charts.place();
 }
 
-Image Renderer::draw(const analysis::Curve& curve, int width, int height) {
+Image Renderer::draw(const analysis::Curve& curve, int width, int height,
+                     const std::array<double, 3>& ground) {
   refuseBadSize(width, height);
   Impl& d = *impl_;
   const std::lock_guard lock(vtkTurn());
   d.window->MakeCurrent();
   d.window->SetSize(width, height);
-  d.charts.show(curve, width, height);
+  d.charts.show(curve, width, height, ground);
   d.scene->DrawOff();
   d.charts.renderer()->DrawOn();
   d.window->Render();

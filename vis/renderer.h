@@ -6,6 +6,7 @@
 #include "sim/frame/frame.h"
 #include "vis/view.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -66,8 +67,9 @@ public:
   /// Grains that the last picture sent to the rasteriser.
   std::size_t drawnGrains() const;
 
-  /// Draws a chart with VTK charts.
-  Image draw(const analysis::Curve& curve, int width, int height);
+  /// Draws a chart with VTK charts; ink and lines are as light or dark as the ground asks for.
+  Image draw(const analysis::Curve& curve, int width, int height,
+             const std::array<double, 3>& ground = {1, 1, 1});
   ChartPlace chartPlace() const; ///< of the chart drawn last
 
   /// The grain under a pixel of the last drawn frame, by the same clip planes as drawing.

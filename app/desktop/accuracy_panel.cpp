@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 
 namespace sandglass::desktop {
 
@@ -80,7 +81,7 @@ void AccuracyPanel::setProgress(const Progress& p) {
 
 void AccuracyPanel::setFrame(const Frame& frame) {
   if (const auto step = frame.provenance.find("step_size"); step != frame.provenance.end())
-    step_->setText(1, QString::fromStdString(step->second));
+    step_->setText(1, QString("%1 s").arg(std::strtod(step->second.c_str(), nullptr), 0, 'g', 4));
   if (frame.contacts.empty() || !frame.scalars.contains(quantity::radius))
     return overlap_->setText(1, QChar(0x2013));
   const auto& radius = frame.scalars.at(quantity::radius);

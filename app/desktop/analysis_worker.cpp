@@ -3,6 +3,7 @@
 #include "app/desktop/background.h"
 #include "sim/base/error.h"
 
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -59,6 +60,10 @@ std::optional<AnalysisWorker::Order> AnalysisWorker::next() {
   return std::move(orders_.extract(oldest).mapped());
 }
 
+bool AnalysisWorker::simulationPauses() const {
+  return std::any_of(orders_.begin(), orders_.end(), [](const auto& o) { return !o.second.beside; });
+}
+
 void AnalysisWorker::work() {
   lowerPriority(nice);
   tbb::task_arena arena(1);
@@ -76,7 +81,7 @@ void AnalysisWorker::work() {
     ++done_;
     if (!order->beside) continue;
     const std::chrono::duration<double> rest(std::max(shortestInterval, restShare * seconds));
-    changed_.wait_for(lock, rest, [&] { return quit_; });
+    changed_.wait_for(lock, rest, [&] { return quit_ || simulationPauses(); });
   }
 }
 
@@ -85,6 +90,8 @@ AnalysisWorker::Outcome AnalysisWorker::outcomeOf(const Order& order) {
     analysis::Results results = order.analysis->compute(order.input);
     for (auto& curve : results.curves) {
       if (curve.series.size() == 1) curve.series[0].name.clear();
+      // Beside a simulation the picture is ahead of its curves.
+      curve.definition = fmt::format("t = {:.4g} s. {}", order.input.frame->time, curve.definition);
       curve.provenance.insert(order.input.frame->provenance.begin(), order.input.frame->provenance.end());
     }
     return {std::move(results), {}};

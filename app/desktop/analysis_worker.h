@@ -29,8 +29,8 @@ public:
   void compute(const PanelAnalysis& analysis, AnalysisInput input, bool restart, bool beside);
 
   struct Outcome {
-    std::optional<analysis::Results> results;
-    QString fault; ///< why there is none
+    std::optional<analysis::Results> results; ///< curves begin their definitions with the frame's time
+    QString fault;                            ///< why there is none
   };
   bool isIdle() const;               ///< nothing waits, is being worked on, or has not been taken
   std::map<QString, Outcome> take(); ///< the newest results by id
@@ -47,6 +47,7 @@ private:
   };
   void work();
   std::optional<Order> next();
+  bool simulationPauses() const; ///< by an order that waits; the mutex is held
   static Outcome outcomeOf(const Order& order);
 
   std::atomic<std::uint64_t> asked_{0}, done_{0}; ///< numbers of orders; replaced ones count as done

@@ -297,6 +297,11 @@ bool ChartPanel::event(QEvent* event) {
   return true;
 }
 
+void ChartPanel::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange) want(); // drawn for the ground of the theme
+  QWidget::changeEvent(event);
+}
+
 void ChartPanel::leaveEvent(QEvent*) {
   pointer_.reset();
   update();
@@ -304,7 +309,7 @@ void ChartPanel::leaveEvent(QEvent*) {
 
 void ChartPanel::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  painter.fillRect(rect(), image_.isNull() ? ink().paper : QColor(Qt::white));
+  painter.fillRect(rect(), ink().paper);
   const QRect area(0, 0, width(), height() - bar_->height());
   if (image_.isNull()) {
     painter.setPen(ink().text);
@@ -331,8 +336,8 @@ void ChartPanel::paintReadOut(QPainter& painter) {
   if (!nearest) return;
   const QPointF at(nearest->pixelX / r, nearest->pixelY / r);
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(QColor(40, 44, 52), 1.5));
-  painter.setBrush(Qt::white);
+  painter.setPen(QPen(ink().text, 1.5));
+  painter.setBrush(ink().paper);
   painter.drawEllipse(at, 4, 4);
   const QString name = QString::fromStdString(nearest->series);
   const QString text = QString("%1%2, %3")
@@ -344,10 +349,9 @@ void ChartPanel::paintReadOut(QPainter& painter) {
   box.moveCenter(at + QPointF(0, -18));
   box.moveLeft(std::clamp(box.left(), 2.0, std::max(2.0, width() - box.width() - 2)));
   if (box.top() < 2) box.moveTop(at.y() + 10);
-  painter.setBrush(QColor(255, 255, 255, 235));
-  painter.setPen(QColor(170, 176, 182));
+  painter.setPen(ink().faint);
   painter.drawRoundedRect(box, 4, 4);
-  painter.setPen(QColor(40, 44, 52));
+  painter.setPen(ink().text);
   painter.drawText(box, Qt::AlignCenter, text);
 }
 

@@ -68,6 +68,7 @@ protected:
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
 private:
   QToolButton* button(const char* name, const QString& text, const QString& tip);

@@ -8,6 +8,8 @@ namespace sandglass::desktop {
 
 namespace {
 
+constexpr int mostLines = 34; ///< of a column of the cheat sheet: as many as a small screen is high
+
 QString keysOf(const Command& row) {
   QStringList keys;
   for (const auto& key : row.keys)
@@ -91,19 +93,16 @@ QString CommandTable::cheatSheet(const std::vector<std::pair<QString, QString>>&
   for (const auto& [what, how] : gestures)
     blocks.last() += line(what, how);
 
-  // Two columns of about the same number of lines.
-  const auto lines = [](const QString& text) { return text.count("<tr>") + 2; };
-  int all = 0, done = 0;
-  for (const auto& block : blocks)
-    all += lines(block);
-  QString html = "<table><tr><td style='padding-right:36px'>";
-  bool second = false;
+  const QString column = "<td style='padding-right:30px'>";
+  QString html = "<table><tr>" + column;
+  int lines = 0;
   for (int k = 0; k < titles.size(); ++k) {
-    if (!second && 2 * done + lines(blocks[k]) > all) {
-      html += "</td><td>";
-      second = true;
+    const int more = blocks[k].count("<tr>") + 2;
+    if (lines > 0 && lines + more > mostLines) {
+      html += "</td>" + column;
+      lines = 0;
     }
-    done += lines(blocks[k]);
+    lines += more;
     html += QString("<h3>%1</h3><table>%2</table>").arg(plain(titles[k]).toHtmlEscaped(), blocks[k]);
   }
   return html + "</td></tr></table>";

@@ -55,9 +55,10 @@ void DrawingThread::draw(PictureOrder order) {
   changed_.notify_all();
 }
 
-void DrawingThread::drawChart(const QString& panel, analysis::Curve curve, QSize pixels) {
+void DrawingThread::drawChart(const QString& panel, analysis::Curve curve, QSize pixels,
+                              const QColor& ground) {
   const std::lock_guard lock(mutex_);
-  charts_[panel] = {std::move(curve), pixels};
+  charts_[panel] = {std::move(curve), pixels, {ground.redF(), ground.greenF(), ground.blueF()}};
   changed_.notify_all();
 }
 
@@ -170,7 +171,8 @@ std::optional<DrawingThread::Task> DrawingThread::dueTask(Clock::time_point now)
     chartLast_ = true;
     auto node = charts_.extract(charts_.begin());
     return [this, panel = node.key(), order = std::move(node.mapped())](vis::Renderer& r) {
-      const QImage image = toQImage(r.draw(order.curve, order.pixels.width(), order.pixels.height()));
+      const QImage image =
+          toQImage(r.draw(order.curve, order.pixels.width(), order.pixels.height(), order.ground));
       Q_EMIT chartReady(panel, image, r.chartPlace());
     };
   }

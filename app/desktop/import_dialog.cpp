@@ -13,7 +13,6 @@
 #include <QSignalBlocker>
 #include <QStyle>
 #include <QVBoxLayout>
-#include <QWheelEvent>
 
 #include <algorithm>
 
@@ -24,12 +23,6 @@ namespace {
 constexpr int rest = 250; ///< [ms] without a key before choices are tried
 constexpr int nice = 5;
 const char* const asTheFileSays = "as the file says";
-
-/// Scrolling through the table must not change what a row is taken for.
-class CalmCombo : public QComboBox {
-protected:
-  void wheelEvent(QWheelEvent* event) override { event->ignore(); }
-};
 
 QString rangeOf(const ForeignColumn& column) {
   if (!column.words.empty()) {
@@ -135,7 +128,7 @@ void ImportDialog::buildTable(const ImportChoices& choices) {
     const ForeignColumn& column = facts_.columns[k];
     table_->setItem(row, 0, new QTableWidgetItem(QString::fromStdString(column.name)));
     table_->setItem(row, 1, new QTableWidgetItem(rangeOf(column)));
-    auto* box = new CalmCombo;
+    auto* box = new QComboBox;
     box->setObjectName("meaning." + QString::fromStdString(column.name));
     box->setAccessibleName("What the column " + QString::fromStdString(column.name) + " is taken for");
     box->setFocusPolicy(Qt::StrongFocus);

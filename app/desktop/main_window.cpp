@@ -1,6 +1,7 @@
 #include "app/desktop/main_window.h"
 
 #include "app/desktop/accuracy_panel.h"
+#include "app/desktop/calm_wheel.h"
 #include "app/desktop/chart_panel.h"
 #include "app/desktop/inspector_panel.h"
 #include "app/desktop/picture_view.h"
@@ -9,10 +10,12 @@
 #include "app/desktop/scene_panel.h"
 #include "app/desktop/start_page.h"
 #include "app/desktop/state_panel.h"
+#include "app/desktop/style.h"
 #include "app/desktop/sweep_panel.h"
 #include "app/desktop/text_panels.h"
 #include "app/desktop/view_panel.h"
 
+#include <QApplication>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QMessageBox>
@@ -57,6 +60,7 @@ MainWindow::MainWindow(const WindowOptions& options)
   setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowTabbedDocks | QMainWindow::AllowNestedDocks);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   pool_.setMaxThreadCount(1);
+  qApp->installEventFilter(new CalmWheel(this));
   buildCentre();
   commands_ = std::make_unique<CommandTable>(this, commandRows());
   commands_->fill(menuBar());
@@ -173,8 +177,8 @@ void MainWindow::buildCharts() {
     panel->setProperty("hint", hint);
     return addDock(id, title, panel, Qt::RightDockWidgetArea);
   };
-  chart("energies", "Energies", "Energies of the grains, once a scene with an energies probe runs.");
-  auto* flow = chart("flow", "Flow rate", "Mass flow, once a scene with a flow_rate probe runs.");
+  chart("energies", "Energies", "Energies of the grains, once a scene or run is open.");
+  auto* flow = chart("flow", "Flow rate", "Mass flow through the outlet, once a scene or run is open.");
   inspector_ = new InspectorPanel;
   charts_["history"] = inspector_->history();
   point_ = new PointPanel("Open the folder of a sweep and choose a point of its diagram.");
@@ -214,7 +218,7 @@ void MainWindow::buildCharts() {
   for (const auto& [id, panel] : charts_) {
     connect(panel, &ChartPanel::wanted, this,
             [this](const QString& name, const analysis::Curve& curve, QSize pixels) {
-              drawing_->drawChart(name, curve, pixels);
+              drawing_->drawChart(name, curve, pixels, ink().paper);
             });
     connect(panel, &ChartPanel::exportWanted, this, &MainWindow::exportCurve);
     if (id != "history" && id != "point")

@@ -54,15 +54,6 @@ QString labelOf(const SceneField& field) {
   return QString::fromStdString(field.spec.name).replace('_', ' ');
 }
 
-/// A combo box in a long form must not change its value because somebody scrolls over it.
-class CalmCombo : public QComboBox {
-public:
-  using QComboBox::QComboBox;
-
-protected:
-  void wheelEvent(QWheelEvent* event) override { event->ignore(); }
-};
-
 } // namespace
 
 ScenePanel::ScenePanel(QWidget* parent) : QWidget(parent) {
@@ -192,7 +183,7 @@ QWidget* ScenePanel::editorFor(const SceneField& field) {
   QWidget* editor = nullptr;
   const bool boolean = field.spec.type == ParameterType::boolean;
   if (boolean || (field.spec.type == ParameterType::text && !field.spec.choices.empty())) {
-    auto* combo = new CalmCombo;
+    auto* combo = new QComboBox;
     if (!field.selects) combo->addItem("");
     if (boolean) combo->addItems({"true", "false"});
     for (const auto& choice : field.spec.choices)

@@ -4,7 +4,9 @@
 #include <QPainter>
 #include <QPainterPath>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QStyleFactory>
+#include <QStyleOption>
 
 #include <functional>
 #include <map>
@@ -57,11 +59,10 @@ QPushButton[link="true"] { color: @accent; border: none; text-align: left; paddi
 QPushButton[link="true"]:focus, QPushButton[link="true"]:hover { text-decoration: underline; }
 QGroupBox { font-weight: 600; border: 1px solid @line; border-radius: 5px; margin-top: 9px; padding-top: 5px; }
 QGroupBox::title { subcontrol-origin: margin; left: 9px; padding: 0 4px; color: @accent; }
-#chartBar { background: #ffffff; }
-#chartBar QToolButton { color: #343a40; border: none; padding: 2px 3px; border-radius: 4px; }
-#chartBar QLineEdit, #chartBar QComboBox { background: #ffffff; color: #343a40; }
-#chartBar QToolButton:hover, #chartBar QToolButton:focus { background: #eaf2f2; }
-#chartBar QToolButton:checked { background: #d5e7e8; font-weight: 600; }
+#chartBar { background: @paper; }
+#chartBar QToolButton { border: none; padding: 2px 3px; border-radius: 4px; }
+#chartBar QToolButton:hover, #chartBar QToolButton:focus { background: @hover; }
+#chartBar QToolButton:checked { background: @pressed; font-weight: 600; }
 #banner { background: @faultPaper; border: none; border-bottom: 1px solid @faultLine; }
 #banner QLabel { color: @fault; }
 #timeBar { background: @raised; border-top: 1px solid @line; }
@@ -94,6 +95,22 @@ QString sheetWith(const Colours& c) {
     text.replace(name, *value);
   return text;
 }
+
+/// Fusion outlines check boxes darker than the window, which is nothing on a dark one.
+class Outlined : public QProxyStyle {
+public:
+  Outlined() : QProxyStyle(QStyleFactory::create("Fusion")) {}
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    if (element != PE_IndicatorCheckBox && element != PE_IndicatorItemViewItemCheck) return;
+    painter->save();
+    painter->setPen(currentInk.faint);
+    painter->setBrush(Qt::NoBrush);
+    painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+    painter->restore();
+  }
+};
 
 using Draw = std::function<void(QPainter&)>;
 
@@ -198,7 +215,7 @@ void setStyle(QApplication& app, Theme theme, double textScale) {
   currentInk = {c.ink, c.faint, c.paper, c.fault, dark ? QColor(240, 190, 90) : QColor(154, 103, 0)};
   // Each of these calls goes through all widgets: only what changes is set.
   static bool fusion = false;
-  if (!std::exchange(fusion, true)) QApplication::setStyle(QStyleFactory::create("Fusion"));
+  if (!std::exchange(fusion, true)) QApplication::setStyle(new Outlined);
   QPalette palette;
   palette.setColor(QPalette::Window, c.window);
   palette.setColor(QPalette::Base, c.paper);

@@ -1,6 +1,5 @@
 #include "app/desktop/view_panel.h"
 
-#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QScrollBar>
@@ -50,7 +49,9 @@ ViewPanel::ViewPanel(QWidget* parent) : QScrollArea(parent) {
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   addColours(form);
   addClip(form);
-  addShown(form);
+  form->addRow(heading("Show"));
+  shown_ = new ShownFields(form);
+  connect(shown_, &ShownFields::changed, this, &ViewPanel::changed);
   addForces(form);
   form->addRow(heading("Slice through a field"));
   slice_ = new SliceFields(form);
@@ -138,32 +139,6 @@ void ViewPanel::addClip(QFormLayout* form) {
   connect(cuts_, &ClipFields::changed, this, &ViewPanel::changed);
 }
 
-void ViewPanel::addShown(QFormLayout* form) {
-  form->addRow(heading("Show"));
-  opacity_ = new QSlider(Qt::Horizontal, this);
-  opacity_->setObjectName("wallOpacity");
-  opacity_->setRange(0, 100);
-  grains_ = new QCheckBox("grains", this);
-  grains_->setObjectName("showGrains");
-  walls_ = new QCheckBox("walls", this);
-  removedWalls_ = new QCheckBox("removed walls", this);
-  legend_ = new QCheckBox("legend", this);
-  axes_ = new QCheckBox("axes", this);
-  scale_ = new QCheckBox("scale", this);
-  auto* shown = new QGridLayout;
-  shown->addWidget(grains_, 0, 0);
-  shown->addWidget(walls_, 0, 1);
-  shown->addWidget(removedWalls_, 2, 0, 1, 2);
-  shown->addWidget(legend_, 1, 0);
-  shown->addWidget(axes_, 1, 1);
-  shown->addWidget(scale_, 1, 2);
-  form->addRow(shown);
-  form->addRow("Wall tint", opacity_);
-  connect(opacity_, &QSlider::valueChanged, this, &ViewPanel::changed);
-  for (auto* box : {grains_, walls_, removedWalls_, legend_, axes_, scale_})
-    connect(box, &QCheckBox::toggled, this, &ViewPanel::changed);
-}
-
 void ViewPanel::addForces(QFormLayout* form) {
   form->addRow(heading("Grains and forces"));
   selection_ = new QLineEdit(this);
@@ -242,9 +217,9 @@ void ViewPanel::setFrame(const Frame& frame) {
 }
 
 void ViewPanel::setView(const vis::View& view) {
-  const QSignalBlocker a(quantity_), b(map_), c(range_), d(low_), e(high_), f(opacity_), g(walls_),
-      h(legend_), i(axes_), j(scale_), k(removedWalls_), l(clips_), m(axis_), n(position_), o(flip_),
-      p(bands_), q(reversed_), r(chains_), s(arrows_), t(selectionUse_), u(selection_), v(grains_);
+  const QSignalBlocker a(quantity_), b(map_), c(range_), d(low_), e(high_), f(clips_), g(axis_), h(position_),
+      i(flip_), j(bands_), k(reversed_), l(chains_), m(arrows_), n(selectionUse_), o(selection_);
+  shown_->setView(view);
   cuts_->setView(view);
   slice_->setView(view);
   const QString quantity =
@@ -255,13 +230,6 @@ void ViewPanel::setView(const vis::View& view) {
   range_->setCurrentIndex(static_cast<int>(view.colouring.range));
   low_->setValue(view.colouring.low);
   high_->setValue(view.colouring.high);
-  opacity_->setValue(static_cast<int>(100 * view.wallOpacity + 0.5));
-  grains_->setChecked(view.grains);
-  walls_->setChecked(view.walls);
-  removedWalls_->setChecked(view.removedWalls);
-  legend_->setChecked(view.legend);
-  axes_->setChecked(view.axes);
-  scale_->setChecked(view.scaleBar);
   bands_->setValue(view.colouring.bands);
   reversed_->setChecked(view.colouring.reversed);
   chains_->setChecked(view.forceChains.shown);
@@ -305,13 +273,7 @@ void ViewPanel::apply(vis::View& view) const {
   view.arrows.vector = arrows_->currentIndex() > 0 ? arrows_->currentText().toStdString() : "";
   view.selection.expression = selection_->text().trimmed().toStdString();
   view.selection.use = static_cast<vis::Selection::Use>(selectionUse_->currentIndex());
-  view.wallOpacity = opacity_->value() / 100.0;
-  view.grains = grains_->isChecked();
-  view.walls = walls_->isChecked();
-  view.removedWalls = removedWalls_->isChecked();
-  view.legend = legend_->isChecked();
-  view.axes = axes_->isChecked();
-  view.scaleBar = scale_->isChecked();
+  shown_->apply(view);
   cuts_->apply(view);
   slice_->apply(view);
   if (!clips_->isChecked()) return view.clips.clear();

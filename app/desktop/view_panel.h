@@ -2,6 +2,7 @@
 // How the picture is drawn: colours, their range, cuts, which grains, what is shown, a slice through a field.
 
 #include "app/desktop/clip_fields.h"
+#include "app/desktop/shown_fields.h"
 #include "app/desktop/slice_fields.h"
 #include "sim/frame/frame.h"
 #include "vis/view.h"
@@ -36,7 +37,6 @@ Q_SIGNALS:
 private:
   void addColours(QFormLayout* form);
   void addClip(QFormLayout* form);
-  void addShown(QFormLayout* form);
   void addForces(QFormLayout* form);
   void enable();
   Vec3 clipPoint() const;
@@ -47,12 +47,11 @@ private:
   QComboBox* axis_;
   QSlider* position_;
   QCheckBox* flip_;
-  QSlider* opacity_;
-  QCheckBox *grains_, *walls_, *removedWalls_, *legend_, *axes_, *scale_;
   QCheckBox *chains_, *reversed_;
   QSpinBox* bands_;
   QComboBox *arrows_, *selectionUse_;
   QLineEdit* selection_;
+  ShownFields* shown_;
   ClipFields* cuts_;
   SliceFields* slice_;
   Vec3 lower_ = Vec3::Zero(), upper_ = Vec3::Ones();

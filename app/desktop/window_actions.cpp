@@ -12,6 +12,7 @@
 #include <QFileDialog>
 #include <QLabel>
 #include <QMessageBox>
+#include <QScreen>
 #include <QScrollArea>
 #include <QStatusBar>
 #include <QVBoxLayout>
@@ -210,7 +211,7 @@ void MainWindow::showCheatSheet() {
   auto* column = new QVBoxLayout(dialog);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(scroll);
-  dialog->resize(text->sizeHint() + QSize(24, 8));
+  dialog->resize((text->sizeHint() + QSize(24, 8)).boundedTo(screen()->availableSize() * 9 / 10));
   dialog->show();
 }
 

@@ -151,8 +151,16 @@ void MainWindow::refreshCurves() {
     else
       panel->clear(hint);
   };
-  show("energies", current.series.energies(*current.scene), "No samples of an energies probe.");
-  show("flow", current.series.flowRate(*current.scene), "No samples of a flow_rate probe.");
+  const auto hint = [&](const char* what, const char* kind) {
+    const auto& probes = current.scene->probes;
+    const bool asked = std::any_of(probes.begin(), probes.end(),
+                                   [&](const ProbeSpec& probe) { return probe.what.kind == kind; });
+    return asked ? QString("%1: nothing yet. It is drawn as the scene runs.").arg(what)
+                 : QString("%1 is not asked for: give the scene a [[probe]] with kind = \"%2\".")
+                       .arg(what, kind);
+  };
+  show("energies", current.series.energies(*current.scene), hint("Energy", "energies"));
+  show("flow", current.series.flowRate(*current.scene), hint("Flow rate", "flow_rate"));
 }
 
 bool MainWindow::isSettled() const {

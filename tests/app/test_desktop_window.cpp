@@ -9,9 +9,12 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
+#include <QDoubleSpinBox>
 #include <QMimeData>
 #include <QPlainTextEdit>
+#include <QScrollBar>
 #include <QSlider>
+#include <QWheelEvent>
 
 #include <catch2/catch.hpp>
 
@@ -153,6 +156,56 @@ TEST_CASE("Colour, range and cut change the picture, and panels show curves", "[
   REQUIRE(waitFor([&] { return desktop.window->isSettled() && picture.image() != last; }));
   // Heights fall, so that the highest place of the run is in the first frame: above 5.5 spacings.
   REQUIRE(desktop.window->view().colouring.high > 0.011);
+}
+
+TEST_CASE("Ground, size of grains and copies are fields; the wheel scrolls a form and changes none of it",
+          "[desktop]") {
+  TemporaryFolder folder("desktop-shown");
+  Desktop desktop(folder / "run");
+  REQUIRE(desktop.open(writeBed(folder / "bed.toml", 6, 6, 0.05)));
+  const auto& view = desktop.window->view();
+  desktop.click("darkGround");
+  CHECK(view.background[0] < 0.2);
+  desktop.type("grainScale", "0.5");
+  CHECK(view.grainScale == 0.5);
+  desktop.type("copies", "2");
+  CHECK(view.periodicImages == std::array{2, 2, 2});
+  desktop.click("showTime");
+  CHECK_FALSE(view.timeStamp);
+  REQUIRE(waitFor([&] { return desktop.window->isSettled(); }));
+  CHECK(qGray(desktop.picture().image().pixel(2, 2)) < 60);
+  for (int k = 0; k < 4; ++k)
+    desktop.key(Qt::Key_Z, Qt::ControlModifier);
+  CHECK(view.timeStamp);
+  CHECK(view.background[0] == 1);
+  CHECK(desktop.child<QDoubleSpinBox>("grainScale")->value() == 1);
+
+  auto* form = desktop.child<QScrollArea>("view");
+  auto* quantity = desktop.child<QComboBox>("quantity");
+  form->verticalScrollBar()->setValue(0);
+  const QString before = quantity->currentText();
+  const QPoint at = quantity->rect().center();
+  QWheelEvent turn(at, quantity->mapToGlobal(at), {}, QPoint(0, -120), Qt::NoButton, {}, Qt::NoScrollPhase,
+                   false);
+  QSpontaneKeyEvent::setSpontaneous(&turn); // else it goes no further than the box
+  qApp->notify(quantity, &turn);
+  CHECK(quantity->currentText() == before);
+  CHECK(form->verticalScrollBar()->value() > 0);
+}
+
+TEST_CASE("Charts take the ground of the theme", "[desktop]") {
+  TemporaryFolder folder("desktop-dark");
+  Desktop desktop(folder / "run");
+  REQUIRE(desktop.open(writeBed(folder / "bed.toml", 6, 6, 0.05)));
+  auto* chart = desktop.child<desktop::ChartPanel>("gr");
+  REQUIRE(waitFor([&] { return chart->charts() > 0 && desktop.window->isSettled(); }));
+  CHECK(qGray(chart->grab().toImage().pixel(2, 2)) == 255);
+  const auto before = chart->charts();
+  desktop.key(Qt::Key_D, Qt::ControlModifier);
+  REQUIRE(waitFor([&] { return chart->charts() > before && desktop.window->isSettled(); }));
+  CHECK(qGray(chart->grab().toImage().pixel(2, 2)) < 80);
+  desktop.key(Qt::Key_D, Qt::ControlModifier);
+  REQUIRE(waitFor([&] { return qGray(chart->grab().toImage().pixel(2, 2)) == 255; }));
 }
 
 TEST_CASE("Faults are sentences in the window, which keeps what was open", "[desktop]") {

@@ -67,7 +67,7 @@ TEST_CASE("OSMesa and EGL draw the same shapes, chains, arrows, slices and cuts"
   view.forceChains.shown = view.slice.shown = true;
   view.slice.streamlines = view.arrows.vector = "velocity";
   view.clipCylinders = {{Vec3(0.02, 0.02, 0), Vec3::UnitZ(), 0.01, false}};
-  view.selection = {"x > 0.01", Selection::Use::highlight};
+  view.selection = {"x > 0.01", Selection::Use::highlight, {}};
   const Image a = Renderer(GlBackend::osmesa).draw(frame, view),
               b = Renderer(GlBackend::egl).draw(frame, view);
   CHECK((a.rgba == b.rgba));

@@ -145,7 +145,7 @@ TEST_CASE("a selection shows, hides or highlights") {
     CHECK((colours[k] == Rgb{217, 199, 158}) == (all.pale[k] == 0));
   }
   CHECK(plain == 16);
-  view.selection = {"velocity.x >", Selection::Use::only};
+  view.selection = {"velocity.x >", Selection::Use::only, {}};
   CHECK_THROWS_AS(renderer.draw(frame, view), InputError);
 }
 
