@@ -39,6 +39,12 @@ public:
     return {widget()->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width(),
             QScrollArea::minimumSizeHint().height()};
   }
+
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override { // rows come and go with what is open
+    if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
+    return QScrollArea::eventFilter(watched, event);
+  }
 };
 
 QScrollArea* scrolling(QWidget* content) {
