@@ -6,14 +6,86 @@
 
 namespace sandglass {
 
+namespace {
+
+/// Rows of what stands in runs of equal ids, found by id: a grain's candidates before it was listed anew.
+/// Open addressing, at most half full.
+class RowsById {
+public:
+  explicit RowsById(const std::vector<std::int64_t>& ids) : ids_(ids) {
+    std::size_t size = 16;
+    while (size < 2 * ids.size())
+      size *= 2;
+    mask_ = size - 1;
+    rows_.assign(size, none);
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      if (k == 0 || ids[k] != ids[k - 1]) rows_[place(ids[k])] = static_cast<std::int32_t>(k);
+  }
+  /// First row of this id; as many as there are rows: it has none.
+  std::size_t first(std::int64_t id) const {
+    const std::int32_t row = rows_[place(id)];
+    return row == none ? ids_.size() : static_cast<std::size_t>(row);
+  }
+
+private:
+  static constexpr std::int32_t none = -1;
+  std::size_t place(std::int64_t id) const {
+    std::size_t at = (static_cast<std::uint64_t>(id) * 0x9e3779b97f4a7c15u) >> 32 & mask_;
+    while (rows_[at] != none && ids_[rows_[at]] != id)
+      at = (at + 1) & mask_;
+    return at;
+  }
+
+  const std::vector<std::int64_t>& ids_;
+  std::size_t mask_ = 0;
+  std::vector<std::int32_t> rows_;
+};
+
+} // namespace
+
 void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>& walls, double range,
                          Parallel& parallel) {
   const auto n = static_cast<std::int64_t>(grains.size());
+  const std::vector<Candidate> oldCandidates = std::move(candidates_);
+  const std::vector<std::int64_t> oldIds = std::move(ids_);
+  const std::vector<std::int32_t> oldFeature = std::move(feature_);
+  const std::vector<double> oldHistory = std::move(history_);
+  candidates_.clear();
+  slack_.clear();
+  ids_.clear();
+  offsets_.assign(static_cast<std::size_t>(n) + 1, 0);
+  for (const auto& found : findNear(grains, walls, range, parallel))
+    for (const auto& [candidate, slack] : found) {
+      candidates_.push_back(candidate);
+      slack_.push_back(slack);
+      ids_.push_back(grains.id[candidate.grain]);
+      ++offsets_[candidate.grain + 1];
+    }
+  for (std::int64_t i = 0; i < n; ++i)
+    offsets_[i + 1] += offsets_[i];
+
+  const std::size_t row = static_cast<std::size_t>(slots) * laws_.historySize();
+  feature_.assign(candidates_.size() * slots, -1);
+  history_.assign(candidates_.size() * row, 0.0);
+  result_.assign(candidates_.size() * 6, 0.0);
+  counting_ = std::any_of(walls.begin(), walls.end(), [](const SolverWall& w) { return w.counted; });
+  slipWork_.assign(counting_ ? candidates_.size() : 0, 0.0);
+  begun_.assign(slipWork_.size(), 0);
+  // Contacts that there are go on with their histories.
+  const RowsById rows(oldIds);
+  for (std::size_t k = 0; k < candidates_.size(); ++k)
+    for (std::size_t at = rows.first(ids_[k]); at < oldIds.size() && oldIds[at] == ids_[k]; ++at) {
+      if (oldCandidates[at].wall != candidates_[k].wall || oldFeature[at * slots] < 0) continue;
+      std::copy_n(oldFeature.data() + at * slots, slots, feature_.data() + k * slots);
+      std::copy_n(oldHistory.data() + at * row, row, history_.data() + k * row);
+    }
+}
+
+std::vector<std::vector<WallContacts::Found>> WallContacts::findNear(const GrainStore& grains,
+                                                                     const std::vector<SolverWall>& walls,
+                                                                     double range, Parallel& parallel) const {
+  const auto n = static_cast<std::int64_t>(grains.size());
   constexpr std::int64_t chunk = 1024;
-  struct Found {
-    Candidate candidate;
-    Slack slack;
-  };
   std::vector<Eigen::AlignedBox3d> bounds; // of walls at rest: most grains are far from a small wall
   for (const SolverWall& wall : walls)
     bounds.push_back(wall.shape->bounds());
@@ -41,49 +113,7 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
                               {x.x(), x.y(), x.z(), slack * slack}});
         }
   });
-
-  // Contacts that there are, by (id, wall), for their histories.
-  struct Key {
-    std::int64_t id;
-    std::int32_t wall;
-    std::size_t at;
-    bool operator<(const Key& o) const { return id != o.id ? id < o.id : wall < o.wall; }
-  };
-  std::vector<Key> old;
-  for (std::size_t k = 0; k < candidates_.size(); ++k)
-    if (feature_[k * slots] >= 0) old.push_back({ids_[k], candidates_[k].wall, k});
-  std::sort(old.begin(), old.end());
-  const std::vector<std::int32_t> oldFeature = std::move(feature_);
-  const std::vector<double> oldHistory = std::move(history_);
-
-  candidates_.clear();
-  slack_.clear();
-  ids_.clear();
-  offsets_.assign(static_cast<std::size_t>(n) + 1, 0);
-  for (const auto& f : found)
-    for (const auto& [candidate, slack] : f) {
-      candidates_.push_back(candidate);
-      slack_.push_back(slack);
-      ids_.push_back(grains.id[candidate.grain]);
-      ++offsets_[candidate.grain + 1];
-    }
-  for (std::int64_t i = 0; i < n; ++i)
-    offsets_[i + 1] += offsets_[i];
-
-  const std::size_t row = static_cast<std::size_t>(slots) * laws_.historySize();
-  feature_.assign(candidates_.size() * slots, -1);
-  history_.assign(candidates_.size() * row, 0.0);
-  result_.assign(candidates_.size() * 6, 0.0);
-  counting_ = std::any_of(walls.begin(), walls.end(), [](const SolverWall& w) { return w.counted; });
-  slipWork_.assign(counting_ ? candidates_.size() : 0, 0.0);
-  begun_.assign(slipWork_.size(), 0);
-  for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    const Key key{ids_[k], candidates_[k].wall, 0};
-    const auto it = std::lower_bound(old.begin(), old.end(), key);
-    if (it == old.end() || key < *it) continue;
-    std::copy_n(oldFeature.data() + it->at * slots, slots, feature_.data() + k * slots);
-    std::copy_n(oldHistory.data() + it->at * row, row, history_.data() + k * row);
-  }
+  return found;
 }
 
 int WallContacts::touches(const GrainStore& grains, const std::vector<SolverWall>& walls,

@@ -70,6 +70,13 @@ private:
   struct Slack {
     double x = 0, y = 0, z = 0, squared = 0;
   };
+  struct Found {
+    Candidate candidate;
+    Slack slack;
+  };
+  /// Grains that may touch a wall before they are listed again, in storage order, in pieces.
+  std::vector<std::vector<Found>> findNear(const GrainStore& grains, const std::vector<SolverWall>& walls,
+                                           double range, Parallel& parallel) const;
   bool parted(const GrainStore& grains, std::size_t candidate) const {
     const Slack& s = slack_[candidate];
     const Quad& now = grains.place[candidates_[candidate].grain];

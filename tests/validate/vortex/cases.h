@@ -23,10 +23,13 @@ std::string judgeSpeeds(const analysis::SweepTable& table, Report& report);
 std::string judgeGrid(const analysis::SweepTable& table, Report& report);
 std::string judgeCoupled(const analysis::SweepTable& table, Report& report);
 std::string judgeDrags(const analysis::SweepTable& table, Report& report);
+std::string judgeBare(const analysis::SweepTable& table, Report& report);
+std::string judgeSettling(const analysis::SweepTable& table, Report& report);
 std::string judgeVolume(const analysis::SweepTable& table, Report& report);
 
 // Without a sweep.
 std::string judgeContacts(Report& report);   ///< the sample vortex_tank as the source has it
+std::string judgeSamples(Report& report);    ///< vortex_tank, vortex_spout, vortex_manual
 std::string judgeParaboloid(Report& report); ///< the sample vortex_paraboloid
 
 /// Runs of a sweep by the values of its axes, seeds together.

@@ -21,8 +21,12 @@ namespace {
 
 const std::vector<VortexCase>& allCases() {
   static const std::vector<VortexCase> cases{
-      {"speeds", "Speeds relative to the fluid", judgeSpeeds},   {"grid", "The realistic grid", judgeGrid},
-      {"coupled", "A bed that follows the fluid", judgeCoupled}, {"drags", "Drag laws", judgeDrags},
+      {"speeds", "Speeds relative to the fluid", judgeSpeeds},
+      {"grid", "The realistic grid", judgeGrid},
+      {"coupled", "A bed that follows the fluid", judgeCoupled},
+      {"drags", "Drag laws", judgeDrags},
+      {"bare", "Drag laws without wind and friction", judgeBare},
+      {"settling", "Settling in a drag on all of the motion", judgeSettling},
       {"volume", "Constant volume of the bed", judgeVolume},
   };
   return cases;
@@ -78,7 +82,8 @@ int main(int argc, char** argv) {
   bool quick = false, judgeOnly = false;
   app.add_option("folder", folder, "where results go")->required();
   app.add_option("--case", names,
-                 "only these cases: speeds, grid, coupled, drags, volume, contacts, paraboloid");
+                 "only these cases: speeds, grid, coupled, drags, bare, settling, volume, contacts, samples, "
+                 "paraboloid");
   app.add_option("--work", work, "where the tables of the sweeps are kept");
   app.add_flag("--quick", quick, "runs of a second: shows that everything works");
   app.add_flag("--judge", judgeOnly, "run nothing, judge the runs that are there");
@@ -99,6 +104,7 @@ int main(int argc, char** argv) {
              (names.empty() || std::find(names.begin(), names.end(), name) != names.end());
     };
     if (wanted("contacts")) pages += fmt::format("\n## Contacts\n\n{}\n", judgeContacts(report));
+    if (wanted("samples")) pages += fmt::format("\n## Samples\n\n{}\n", judgeSamples(report));
     if (wanted("paraboloid")) pages += fmt::format("\n## A turning bed\n\n{}\n", judgeParaboloid(report));
     if (quick)
       for (Row& row : report.rows)
