@@ -319,7 +319,7 @@ private:
   }
 
   void check() {
-    if (!faults_.has("scene") && plan_.sceneFile.empty())
+    if (faults_.empty() && plan_.sceneFile.empty())
       faults_.general("the key 'scene' is missing; it names the scene that all runs have in common");
     if (plan_.axes.empty() && !faults_.has("axis"))
       faults_.general("there is no [[axis]]; a sweep needs at least one");

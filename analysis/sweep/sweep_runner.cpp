@@ -147,6 +147,7 @@ bool SweepRunner::work() {
                                outcome->fault));
         } else {
           ++progress.done;
+          if (plan.refineLevels > 0) table_.column(plan.refineBy); // refuses now, not after the last run
         }
       } catch (...) {
         failure = std::current_exception();

@@ -31,10 +31,31 @@ bool holdsTable(const fs::path& folder) {
   return fs::exists(folder / SweepTable::fileName);
 }
 
+/// Throws InputError when no scene reads: a key that is wrong is wrong for all. Points that are wrong beside
+/// others become failed runs.
+void requireSomeScene(const SweepPlan& plan) {
+  constexpr std::size_t asked = 100;
+  const auto points = firstPoints(plan);
+  std::optional<InputError> first;
+  for (std::size_t k = 0; k < std::min(points.size(), asked); ++k)
+    try {
+      sceneOf(plan, points[k], plan.seeds.front());
+      return;
+    } catch (const InputError& e) {
+      if (!first) first = e;
+    }
+  if (!first) return;
+  std::vector<std::string> sentences;
+  for (const auto& sentence : first->sentences())
+    sentences.push_back(fmt::format("{}: no scene of this sweep reads: {}", plan.file, sentence));
+  throw InputError(sentences);
+}
+
 /// The folder of the sweep; makes its table when it has none yet.
 fs::path prepare(const SweepArguments& a) {
   if (a.folder.empty() && holdsTable(a.source)) return a.source; // goes on
   const SweepPlan plan = readSweep(a.source);
+  requireSomeScene(plan);
   const fs::path file = fs::absolute(plan.file).lexically_normal();
   const fs::path name = file.filename() == "SWEEP.toml" ? file.parent_path().filename() : file.stem();
   const fs::path folder = a.folder.empty() ? fs::path("out") / name : fs::path(a.folder);

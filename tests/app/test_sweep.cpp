@@ -303,7 +303,26 @@ TEST_CASE("what sweeps refuse", "[sweep]") {
   refused(head + "sampling = \"random\"\npoints = 3\n" + axis + "from = 0\nto = 1\n[refine]", "needs a grid");
   refused(head + axis + "values = [1]\n[[derived]]\nname = \"b\"\nvalue = \"2 * c\"",
           "is no expression of a");
+  refused(head + "sampling = \"sobol\"\n" + axis + "values = [1]",
+          "allowed are: grid, random, latin_hypercube");
+  refused(head + "key = 1\n" + axis + "values = [1]", "is not a known key");
+  refused(head + axis + "key = \"species.ball.size.diametre\"\nvalues = [1, 2]",
+          "no scene of this sweep reads");
   refused(head + axis + "values = [0]\n[[derived]]\nname = \"b\"\nvalue = \"1 / a\"", "no finite number");
+  // One sentence, not another about what it hides.
+  write(folder / "S.toml", head + "states = \"gas\"\n" + axis + "values = [1]");
+  CHECK_THAT(program("sweep " + (folder / "S.toml").string() + " --dry-run").text,
+             !Contains("'scene' is missing"));
+  // What refinement goes by is known with the first run, and the sweep ends there.
+  write(
+      folder / "S.toml",
+      head + axis +
+          "key = \"contact.1.normal.restitution\"\nvalues = [0.2, 0.4, 0.6, 0.8]\n[refine]\nby = \"colour\"");
+  const Result late =
+      program("sweep " + (folder / "S.toml").string() + " --threads 1 -o " + (folder / "late").string());
+  CHECK(late.code == 2);
+  CHECK_THAT(late.text, Contains("there is no column 'colour'"));
+  CHECK(SweepTable(folder / "late").rows()[3].status == SweepStatus::waiting);
   CHECK(program("sweep " + (folder / "nothing").string()).code == 2);
   CHECK(program("sweep " + folder.path().string() + " --share 4/4").code == 2);
 }
