@@ -74,7 +74,7 @@ bool ChartFrame::hasKey() const {
 std::vector<std::string> ChartFrame::definitionLines() const {
   std::string text = curve.definition;
   if (curve.frames > 1) text += fmt::format("{}{} frames averaged.", text.empty() ? "" : " ", curve.frames);
-  const float s = chartScale(width, height);
+  const float s = scale;
   const auto longest = static_cast<std::size_t>(
       std::max(20.0F, (static_cast<float>(width) - 2 * margin * s) / (letterWidth * smallSize * s)));
   std::vector<std::string> lines;
@@ -101,7 +101,7 @@ std::vector<std::string> ChartFrame::definitionLines() const {
 std::vector<std::vector<std::size_t>> ChartFrame::keyRows() const {
   std::vector<std::vector<std::size_t>> rows;
   if (!hasKey()) return rows;
-  const float s = chartScale(width, height), right = static_cast<float>(width) - margin * s;
+  const float s = scale, right = static_cast<float>(width) - margin * s;
   float x = 0;
   for (std::size_t k = 0; k < curve.series.size(); ++k) {
     const auto& series = curve.series[k];
@@ -120,7 +120,7 @@ std::vector<std::vector<std::size_t>> ChartFrame::keyRows() const {
 }
 
 ChartMargins ChartFrame::margins() const {
-  const float s = chartScale(width, height);
+  const float s = scale;
   const auto lines = static_cast<float>(definitionLines().size());
   ChartMargins m;
   m.top = s * (margin / 2 + (curve.title.empty() ? 0 : titleLine) +
@@ -132,7 +132,7 @@ ChartMargins ChartFrame::margins() const {
 }
 
 bool ChartFrame::Paint(vtkContext2D* painter) {
-  const float s = chartScale(width, height), h = static_cast<float>(height);
+  const float s = scale, h = static_cast<float>(height);
   float y = h - s * (margin / 2 + titleLine / 2);
   if (!curve.title.empty()) {
     setText(painter, ground, titleSize * s, 0.85, true);
@@ -153,14 +153,14 @@ bool ChartFrame::Paint(vtkContext2D* painter) {
 }
 
 void ChartFrame::paintKey(vtkContext2D* painter, float top) const {
-  const float step = keyLine * chartScale(width, height);
+  const float step = keyLine * scale;
   const auto rows = keyRows();
   for (std::size_t k = 0; k < rows.size(); ++k)
     paintKeyRow(painter, rows[k], std::round(top - static_cast<float>(k) * step));
 }
 
 void ChartFrame::paintKeyRow(vtkContext2D* painter, const std::vector<std::size_t>& row, float y) const {
-  const float s = chartScale(width, height);
+  const float s = scale;
   float x = std::round(margin * s);
   for (const std::size_t k : row) {
     const SeriesStyle style = styleOf(k);
@@ -191,7 +191,7 @@ ChartFrame::PlotArea ChartFrame::plotArea() const {
 }
 
 void ChartFrame::paintAxisTitles(vtkContext2D* painter) const {
-  const float s = chartScale(width, height);
+  const float s = scale;
   const PlotArea area = plotArea();
   setText(painter, ground, axisSize * s, 0.8);
   painter->GetTextProp()->SetJustificationToCentered();
@@ -211,7 +211,7 @@ void ChartFrame::paintAxisTitles(vtkContext2D* painter) const {
 }
 
 void ChartFrame::paintMarks(vtkContext2D* painter) const {
-  const float s = chartScale(width, height), gap = 6 * s, line = 17 * s;
+  const float s = scale, gap = 6 * s, line = 17 * s;
   const PlotArea area = plotArea();
   struct Label {
     float x, y, wide;

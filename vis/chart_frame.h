@@ -29,6 +29,7 @@ public:
   vtkChartXY* chart = nullptr; ///< painted before this item: marks are placed by its axes
   int width = 0, height = 0;
   std::array<double, 3> ground{1, 1, 1};
+  float scale = 1; ///< of letters and lines, relative to a chart 540 pixels high
 
   ChartMargins margins() const;
   SeriesStyle styleOf(std::size_t series) const; ///< on this ground

@@ -109,7 +109,7 @@ void addLine(vtkChartXY* chart, const Points& p, const SeriesStyle& style, float
 /// Returns the axis' title; ChartFrame writes it where it meets no label.
 std::string setUpAxis(vtkAxis* axis, const analysis::Axis& meaning, const Span& span, int ticks,
                       const ChartFrame& frame) {
-  const float s = chartScale(frame.width, frame.height);
+  const float s = frame.scale;
   axis->SetBehavior(vtkAxis::FIXED);
   axis->SetRange(span.low, span.high);
   const Ticks nice = niceTicks(span.low, span.high, ticks);
@@ -139,17 +139,17 @@ ChartLayer::ChartLayer() {
   renderer_->AddActor(actor_);
 }
 
-void ChartLayer::show(const analysis::Curve& curve, int width, int height,
-                      const std::array<double, 3>& ground) {
-  renderer_->SetBackground(ground[0], ground[1], ground[2]);
-  const float s = chartScale(width, height);
+void ChartLayer::show(const analysis::Curve& curve, int width, int height, const ChartLook& look) {
+  renderer_->SetBackground(look.ground[0], look.ground[1], look.ground[2]);
   vtkNew<vtkChartXY> chart;
   vtkNew<ChartFrame> frame;
   frame->curve = curve;
   frame->chart = chart;
   frame->width = width;
   frame->height = height;
-  frame->ground = ground;
+  frame->ground = look.ground;
+  frame->scale = look.textScale * chartScale(width, height);
+  const float s = frame->scale;
 
   const ChartRange range = chartRange(curve);
   frame->xTitle = setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), curve.x, range.x, 7, *frame);

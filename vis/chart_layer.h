@@ -20,8 +20,7 @@ public:
   vtkRenderer* renderer() const { return renderer_; }
 
   /// Replaces what is shown.
-  void show(const analysis::Curve& curve, int width, int height,
-            const std::array<double, 3>& ground = {1, 1, 1});
+  void show(const analysis::Curve& curve, int width, int height, const ChartLook& look = {});
   /// Of what was painted last.
   ChartPlace place() const;
 

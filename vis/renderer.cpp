@@ -329,14 +329,13 @@ ChartPlace Renderer::chartPlace() const {
   return impl_->charts.place();
 }
 
-Image Renderer::draw(const analysis::Curve& curve, int width, int height,
-                     const std::array<double, 3>& ground) {
+Image Renderer::draw(const analysis::Curve& curve, int width, int height, const ChartLook& look) {
   refuseBadSize(width, height);
   Impl& d = *impl_;
   const std::lock_guard lock(vtkTurn());
   d.window->MakeCurrent();
   d.window->SetSize(width, height);
-  d.charts.show(curve, width, height, ground);
+  d.charts.show(curve, width, height, look);
   d.scene->DrawOff();
   d.charts.renderer()->DrawOn();
   d.window->Render();

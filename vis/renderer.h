@@ -45,6 +45,12 @@ struct ChartPlace {
   double xLow = 0, xHigh = 1, yLow = 0, yHigh = 1;
 };
 
+/// How a chart in a window looks; in files it is as here.
+struct ChartLook {
+  std::array<double, 3> ground{1, 1, 1}; ///< ink and lines are as light or dark as it asks for
+  float textScale = 1;                   ///< of letters and lines
+};
+
 class Renderer {
 public:
   explicit Renderer(GlBackend backend = GlBackend::automatic);
@@ -67,9 +73,8 @@ public:
   /// Grains that the last picture sent to the rasteriser.
   std::size_t drawnGrains() const;
 
-  /// Draws a chart with VTK charts; ink and lines are as light or dark as the ground asks for.
-  Image draw(const analysis::Curve& curve, int width, int height,
-             const std::array<double, 3>& ground = {1, 1, 1});
+  /// Draws a chart with VTK charts.
+  Image draw(const analysis::Curve& curve, int width, int height, const ChartLook& look = {});
   ChartPlace chartPlace() const; ///< of the chart drawn last
 
   /// The grain under a pixel of the last drawn frame, by the same clip planes as drawing.

@@ -298,7 +298,11 @@ bool ChartPanel::event(QEvent* event) {
 }
 
 void ChartPanel::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::PaletteChange) want(); // drawn for the ground of the theme
+  // Drawn for the ground of the theme and the size of letters.
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
+    layOut();
+    want();
+  }
   QWidget::changeEvent(event);
 }
 

@@ -56,9 +56,9 @@ void DrawingThread::draw(PictureOrder order) {
 }
 
 void DrawingThread::drawChart(const QString& panel, analysis::Curve curve, QSize pixels,
-                              const QColor& ground) {
+                              const vis::ChartLook& look) {
   const std::lock_guard lock(mutex_);
-  charts_[panel] = {std::move(curve), pixels, {ground.redF(), ground.greenF(), ground.blueF()}};
+  charts_[panel] = {std::move(curve), pixels, look};
   changed_.notify_all();
 }
 
@@ -172,7 +172,7 @@ std::optional<DrawingThread::Task> DrawingThread::dueTask(Clock::time_point now)
     auto node = charts_.extract(charts_.begin());
     return [this, panel = node.key(), order = std::move(node.mapped())](vis::Renderer& r) {
       const QImage image =
-          toQImage(r.draw(order.curve, order.pixels.width(), order.pixels.height(), order.ground));
+          toQImage(r.draw(order.curve, order.pixels.width(), order.pixels.height(), order.look));
       Q_EMIT chartReady(panel, image, r.chartPlace());
     };
   }

@@ -73,7 +73,7 @@ public:
   ~DrawingThread() override;
 
   void draw(PictureOrder order);
-  void drawChart(const QString& panel, analysis::Curve curve, QSize pixels, const QColor& ground);
+  void drawChart(const QString& panel, analysis::Curve curve, QSize pixels, const vis::ChartLook& look);
   void pick(QPoint pixel);                                    ///< of the picture drawn last
   void pickIn(QRect pixels);                                  ///< all grains in a rectangle of it
   void save(PictureFile file);                                ///< never dropped
@@ -95,7 +95,7 @@ private:
   struct ChartOrder {
     analysis::Curve curve;
     QSize pixels;
-    std::array<double, 3> ground;
+    vis::ChartLook look;
   };
   using Clock = std::chrono::steady_clock;
   using Task = std::function<void(vis::Renderer&)>;

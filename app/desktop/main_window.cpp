@@ -224,7 +224,10 @@ void MainWindow::buildCharts() {
   for (const auto& [id, panel] : charts_) {
     connect(panel, &ChartPanel::wanted, this,
             [this](const QString& name, const analysis::Curve& curve, QSize pixels) {
-              drawing_->drawChart(name, curve, pixels, ink().paper);
+              const QColor& paper = ink().paper;
+              drawing_->drawChart(
+                  name, curve, pixels,
+                  {{paper.redF(), paper.greenF(), paper.blueF()}, static_cast<float>(ink().textScale)});
             });
     connect(panel, &ChartPanel::exportWanted, this, &MainWindow::exportCurve);
     if (id != "history" && id != "point")

@@ -18,6 +18,8 @@ namespace {
 
 const QColor accent(31, 111, 120), sand(214, 160, 72);
 
+constexpr double textSize = 9.5, headingSize = 15; ///< [pt]
+
 /// What the sheet's @names stand for.
 struct Colours {
   QString window, paper, raised, line, hover, pressed, pressedLine, title, accent, fault, faultPaper,
@@ -31,10 +33,11 @@ const Colours darkColours{"#24272b", "#2b2f34", "#2f343a", "#43494f", "#38434a",
                           "#2f545a", "#4c7f86", "#33383e", "#6bc0c9", "#ffa79e",
                           "#4a2522", "#7d3b35", "#e3e6e8", "#767d84", "#43494f"};
 
-Ink currentInk{QColor(52, 58, 64), QColor(173, 178, 184), Qt::white, QColor(180, 35, 24),
-               QColor(154, 103, 0)};
+Ink currentInk{QColor(52, 58, 64),  QColor(173, 178, 184), Qt::white,
+               QColor(180, 35, 24), QColor(154, 103, 0),   1};
 
 const char* const sheet = R"(
+QWidget { font-size: @textpt; }
 QMainWindow, QDialog { background: @window; }
 QMainWindow::separator { background: @line; width: 5px; height: 5px; }
 QToolBar { background: @raised; border: none; border-bottom: 1px solid @line; padding: 4px 8px; spacing: 3px; }
@@ -50,7 +53,7 @@ QDockWidget { font-weight: 600; }
 QDockWidget::title { background: @title; padding: 6px 10px; text-align: left; }
 QDockWidget > QWidget { background: @paper; }
 QLabel[heading="true"] { font-weight: 600; color: @accent; padding-top: 4px; }
-QLabel[pageTitle="true"] { font-weight: 600; font-size: 15pt; color: @ink; padding-top: 6px; }
+QLabel[pageTitle="true"] { font-weight: 600; font-size: @headingpt; color: @ink; padding-top: 6px; }
 QLabel[fault="true"] { color: @fault; }
 #startPageContent, #sceneForm { background: @paper; }
 QToolButton[card="true"] { background: @paper; border: 1px solid @line; border-radius: 8px; padding: 8px; }
@@ -73,8 +76,11 @@ QToolButton#live:checked { background: #1f6f78; color: #ffffff; border-color: #1
 QPlainTextEdit, QTreeWidget { border: none; background: @paper; }
 )";
 
-QString sheetWith(const Colours& c) {
+QString sheetWith(const Colours& c, double textScale) {
   QString text = sheet;
+  // The font of the application does not reach widgets that the sheet has styled.
+  text.replace("@text", QString::number(textSize * textScale, 'f', 2));
+  text.replace("@heading", QString::number(headingSize * textScale, 'f', 2));
   // Longer names first: one may begin another.
   const std::pair<const char*, const QString*> names[] = {{"@pressedLine", &c.pressedLine},
                                                           {"@faultPaper", &c.faultPaper},
@@ -212,7 +218,8 @@ const Ink& ink() {
 void setStyle(QApplication& app, Theme theme, double textScale) {
   const bool dark = theme == Theme::dark;
   const Colours& c = dark ? darkColours : lightColours;
-  currentInk = {c.ink, c.faint, c.paper, c.fault, dark ? QColor(240, 190, 90) : QColor(154, 103, 0)};
+  currentInk = {c.ink,    c.faint, c.paper, c.fault, dark ? QColor(240, 190, 90) : QColor(154, 103, 0),
+                textScale};
   // Each of these calls goes through all widgets: only what changes is set.
   static bool fusion = false;
   if (!std::exchange(fusion, true)) QApplication::setStyle(new Outlined);
@@ -232,9 +239,9 @@ void setStyle(QApplication& app, Theme theme, double textScale) {
   palette.setColor(QPalette::ToolTipText, c.ink);
   if (QApplication::palette() != palette) QApplication::setPalette(palette);
   QFont font = QFontDatabase::systemFont(QFontDatabase::GeneralFont);
-  font.setPointSizeF(9.5 * textScale);
+  font.setPointSizeF(textSize * textScale);
   QApplication::setFont(font);
-  if (const QString text = sheetWith(c); app.styleSheet() != text) app.setStyleSheet(text);
+  if (const QString text = sheetWith(c, textScale); app.styleSheet() != text) app.setStyleSheet(text);
   QApplication::setWindowIcon(icon("app"));
 }
 

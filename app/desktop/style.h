@@ -15,6 +15,7 @@ void setStyle(QApplication& app, Theme theme = Theme::light, double textScale = 
 /// Colours that panels paint with, of the theme of now.
 struct Ink {
   QColor text, faint, paper, error, warning;
+  double textScale;
 };
 const Ink& ink();
 

@@ -208,6 +208,26 @@ TEST_CASE("Charts take the ground of the theme", "[desktop]") {
   REQUIRE(waitFor([&] { return qGray(chart->grab().toImage().pixel(2, 2)) == 255; }));
 }
 
+TEST_CASE("Larger text is larger everywhere, and charts are drawn again for it", "[desktop]") {
+  TemporaryFolder folder("desktop-text");
+  Desktop desktop(folder / "run");
+  REQUIRE(desktop.open(writeBed(folder / "bed.toml", 6, 6, 0.05)));
+  auto* chart = desktop.child<desktop::ChartPanel>("gr");
+  REQUIRE(waitFor([&] { return chart->charts() > 0 && desktop.window->isSettled(); }));
+  const auto height = [&](const char* name) { return desktop.child<QWidget>(name)->fontMetrics().height(); };
+  const int box = height("clip"), combo = height("quantity"), tree = height("accuracy");
+  const auto before = chart->charts();
+  for (int k = 0; k < 4; ++k)
+    desktop.key(Qt::Key_Equal, Qt::ControlModifier);
+  CHECK(height("clip") > 1.3 * box); // 1.1 to the fourth is 1.46
+  CHECK(height("quantity") > 1.3 * combo);
+  CHECK(height("accuracy") > 1.3 * tree);
+  REQUIRE(waitFor([&] { return chart->charts() > before && desktop.window->isSettled(); }));
+  for (int k = 0; k < 4; ++k)
+    desktop.key(Qt::Key_Minus, Qt::ControlModifier);
+  CHECK(height("clip") == box);
+}
+
 TEST_CASE("Faults are sentences in the window, which keeps what was open", "[desktop]") {
   TemporaryFolder folder("desktop-faults");
   Desktop desktop(folder / "run");
