@@ -26,6 +26,9 @@ namespace sandglass::vis {
 
 namespace {
 
+// Pixels of a chart 540 high that a tick's label wants.
+constexpr float xTickRoom = 60, yTickRoom = 24;
+
 vtkSmartPointer<vtkTable> table(const std::vector<std::vector<double>>& columns) {
   static const char* const names[] = {"x", "low", "high"};
   auto result = vtkSmartPointer<vtkTable>::New();
@@ -152,8 +155,13 @@ void ChartLayer::show(const analysis::Curve& curve, int width, int height, const
   const float s = frame->scale;
 
   const ChartRange range = chartRange(curve);
-  frame->xTitle = setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), curve.x, range.x, 7, *frame);
-  frame->yTitle = setUpAxis(chart->GetAxis(vtkAxis::LEFT), curve.y, range.y, 6, *frame);
+  const ChartMargins margins = frame->margins();
+  const float wide = static_cast<float>(width) - margins.left - margins.right;
+  const float high = static_cast<float>(height) - margins.bottom - margins.top;
+  frame->xTitle = setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), curve.x, range.x,
+                            std::clamp(static_cast<int>(wide / (xTickRoom * s)), 2, 7), *frame);
+  frame->yTitle = setUpAxis(chart->GetAxis(vtkAxis::LEFT), curve.y, range.y,
+                            std::clamp(static_cast<int>(high / (yTickRoom * s)), 2, 6), *frame);
   std::vector<Points> points;
   for (const auto& series : curve.series)
     points.push_back(finitePoints(series));
@@ -171,7 +179,6 @@ void ChartLayer::show(const analysis::Curve& curve, int width, int height, const
       if (!points[k].x.empty() && curve.series[k].ring == ring)
         addLine(chart, points[k], frame->styleOf(k), s);
 
-  const ChartMargins margins = frame->margins();
   chart->SetAutoSize(false);
   chart->SetAutoAxes(false);
   for (const int side : {vtkAxis::TOP, vtkAxis::RIGHT})

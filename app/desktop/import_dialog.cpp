@@ -37,6 +37,12 @@ QString rangeOf(const ForeignColumn& column) {
   return text;
 }
 
+/// Sentences of the command line end with the option that would help; here there are fields.
+QString withoutOptions(QString text) {
+  static const QRegularExpression advice("; (give|name it)[^;\n]*--[^;\n]*");
+  return text.remove(advice);
+}
+
 void hold(QComboBox* box, const std::string& quantity) {
   const QString data = QString::fromStdString(quantity);
   if (box->findData(data) < 0) box->insertItem(1, quantityInWords(quantity), data);
@@ -70,11 +76,11 @@ ImportDialog::ImportDialog(const QString& path, const ForeignFacts& facts, const
                                .arg(facts.grains));
   column->addWidget(about);
   if (!reason.isEmpty()) {
-    auto* why = new QLabel(withoutFolder(reason));
-    why->setObjectName("importReason");
-    why->setProperty("fault", true);
-    why->setWordWrap(true);
-    column->addWidget(why);
+    why_ = new QLabel(withoutOptions(withoutFolder(reason)));
+    why_->setObjectName("importReason");
+    why_->setProperty("fault", true);
+    why_->setWordWrap(true);
+    column->addWidget(why_);
   }
   buildTable(now);
   column->addWidget(table_, 1);
@@ -334,7 +340,8 @@ void ImportDialog::showTrial(const ImportTrial& trial) {
   for (const auto& missing : trial.missing)
     lines << "Missing: " + missing + ".";
   for (const auto& granted : trial.granted)
-    lines << "Taken for granted: " + withoutFolder(granted) + ".";
+    lines << "Taken for granted: " + withoutOptions(withoutFolder(granted)) + ".";
+  if (why_) why_->hide(); // it no longer holds
   verdict_->setProperty("fault", false);
   style()->polish(verdict_);
   verdict_->setText(lines.join("\n"));
@@ -349,7 +356,7 @@ QString ImportDialog::withoutFolder(QString text) const {
 void ImportDialog::complain(const QStringList& sentences) {
   verdict_->setProperty("fault", true);
   style()->polish(verdict_);
-  verdict_->setText(QString(QChar(0x2717)) + " " + withoutFolder(sentences.join("\n")));
+  verdict_->setText(QString(QChar(0x2717)) + " " + withoutOptions(withoutFolder(sentences.join("\n"))));
   save_->setEnabled(false);
 }
 

@@ -55,6 +55,7 @@ private:
   std::vector<QComboBox*> quantities_; ///< a row each
   QComboBox *length_, *time_, *mass_, *periodic_, *shape_;
   QLineEdit *radius_, *radiusOf_, *lower_, *upper_, *timeStep_, *frameInterval_, *walls_;
+  QLabel* why_ = nullptr; ///< the fault that opened the dialog
   QLabel* verdict_;
   QPushButton* save_;
   QTimer pause_;

@@ -77,7 +77,8 @@ void PictureView::paintHint(QPainter& painter) {
   painter.setFont(font);
   painter.setPen(ink().text);
   const QRect upper(0, 0, width(), height() / 2 - 12);
-  painter.drawText(upper.adjusted(24, 0, -24, 0), Qt::AlignHCenter | Qt::AlignBottom, hintTitle_);
+  painter.drawText(upper.adjusted(24, 0, -24, 0), Qt::AlignHCenter | Qt::AlignBottom | Qt::TextWordWrap,
+                   hintTitle_);
   font.setPointSizeF(points * 1.15);
   font.setWeight(QFont::Normal);
   painter.setFont(font);

@@ -53,7 +53,7 @@ ShownFields::ShownFields(QFormLayout* form) : QObject(form->parentWidget()) {
   grainScale_->setSingleStep(0.05);
   grainScale_->setSuffix(" of true size");
   grainScale_->setToolTip("Smaller grains let force chains and arrows be seen");
-  form->addRow("Grains", grainScale_);
+  form->addRow("Grain size", grainScale_);
   copies_ = new QSpinBox(parent);
   copies_->setObjectName("copies");
   copies_->setRange(0, mostCopies);
