@@ -6,20 +6,17 @@
 // which differ in two places; "own": ours, in times instead of frames, free of units, with windows that
 // slide.
 //
-//             listed                                    text                   own
-//   settled   500 frames, mean |dE| / (1 + E) <= 3e-5   the same               means of the halves of 0.5 s
-//   differ
-//             (J), no centre above the tank                                    by <= 5 % of E in 0.25 s; the
-//             same
-//   fluid     >= 90 % of the last 1500 frames: bins rise outwards by >= 0.1 r, at most one does not (all
-//   three) pinned    innermost centre beyond 2 r in 1000       beyond R - 2 r in      beyond max(2 r, R / 4)
-//   in 50 % of
-//             frames, counted over the whole run        1000 of 2000 frames    the last 1.5 s
-//   spout     5 <= c < n/8 (small), 5 <= c < n/4        large from n/8         n/50 <= c < n/4 in 90 % of the
-//   last
-//             (large) in 2000 frames running                                   1.5 s; large when the mean c
-//             >= n/8
-//   c: grains within 3/4 R that rise by r/100 a frame more than the mean (own: 0.2 sqrt(g r) faster)
+//   settled. Listed and text: over 500 frames, mean |dE| / (1 + E) <= 3e-5 and no centre above the
+//     tank. Own: means of the halves of 0.5 s differ by <= 5 %, and the same height.
+//   fluid. All: >= 90 % of the last 1500 frames (own: 1.5 s), in which bins rise outwards by >= 0.1 r
+//     and at most one does not.
+//   pinned. Listed: innermost centre beyond 2 r in 1000 frames, counted over the whole run. Text:
+//     beyond R - 2 r in 1000 of 2000 frames. Own: beyond max(2 r, R / 4) in 50 % of the last 1.5 s.
+//   spout, of c grains within 3/4 R that rise by r/100 a frame more than the mean (own: 0.2 sqrt(g r)
+//     faster). Listed: 5 <= c < n/8 (small), 5 <= c < n/4 (large) in 2000 frames running. Text: large
+//     from n/8. Own: n/50 <= c < n/4 in 90 % of the last 1.5 s, large when the mean c >= n/8, and about
+//     an open core.
+//
 // Where several hold, large spout goes before small spout, pinned, fluid, flat. Flat is settled and nothing
 // else. Ours asks more than 2 r of an empty core because thin beds have larger holes by chance.
 

@@ -19,6 +19,7 @@ struct Document {
   vis::View view;
   vis::View kept;                    ///< the view before the change that goes on; what undo goes back to
   FramePtr preview;                  ///< of the scene, while it has no frames
+  std::optional<Scene> previewScene; ///< of a sweep's run, whose last frame the preview is
   FramePtr shown;                    ///< null until a picture is there
   QString sceneText;                 ///< as edited; the session has the last sound one
   std::optional<std::size_t> chosen; ///< frame, while another tab is shown

@@ -164,6 +164,7 @@ void MainWindow::onOpened(Document* document) {
   const Opened& current = document->session->current();
   document->shown.reset();
   document->preview.reset();
+  document->previewScene.reset();
   document->chosen.reset();
   document->grain = -1;
   document->grainBeside = false;

@@ -112,7 +112,7 @@ void MainWindow::requestAnalyses(bool restart) {
     AnalysisInput input;
     input.frame = now_->shown;
     input.frames = session_->current().store;
-    input.scene = session_->current().scene;
+    input.scene = session_->current().sweep ? now_->previewScene : session_->current().scene;
     input.quantity = panel->quantity().toStdString();
     input.knobs = panel->knobs().toStdString();
     analyses_->compute(analysis, std::move(input), restart, beside);

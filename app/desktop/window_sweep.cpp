@@ -82,6 +82,7 @@ void MainWindow::showSweepRun(int run) {
       else
         chart->setCurves(std::move(data->curves));
       now_->preview = data->last;
+      now_->previewScene = data->scene;
       if (data->last) return requestPicture();
       now_->shown.reset();
       picture_->clear();

@@ -1,11 +1,9 @@
 // Friction of Rice (M.S. thesis, University of Mississippi, 2012) and what it should have been.
-//   slip = "surface":  F_t = -min(g m |v_t|, mu F_n) v_t / |v_t|, m the reduced mass, v_t the full slip at
-//   the
-//     contact, torque by the contact arm: the viscous force with Coulomb's limit whose rate g is the share of
-//     the slip that the program took away in a step, over the step;
+//   slip = "surface":  F_t = -min(g m |v_t|, mu F_n) v_t / |v_t|, m the reduced mass, v_t the full slip,
+//     torque by the contact arm: the viscous force with Coulomb's limit whose rate g is the share of the slip
+//     that the program took away in a step, over the step;
 //   slip = "spin":  as the program had it. Spins alone make slip, nothing limits the force, and the torque is
-//   not
-//     that of the force:
+//     not that of the force:
 //       F_t = g m_a r_a (w_a + w_b) x n,   T = -g I_a (w_a + w_b)_k (1 - |n_k|)  component by component,
 //     the same torque on both grains. It keeps neither energy nor angular momentum.
 
