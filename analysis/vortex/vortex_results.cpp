@@ -170,9 +170,10 @@ Results vortexResults(const VortexMeasures& measures, const VortexRules& rules) 
   if (!std::isnan(verdict.start)) sentence += fmt::format(" since {:.4g} s", verdict.start);
   sentence += fmt::format(" (confidence {:.0f} %, rules '{}')", 100 * verdict.confidence, rules.name);
   if (!std::isnan(verdict.settled)) sentence += fmt::format(", settled at {:.4g} s", verdict.settled);
-  sentence += fmt::format(
-      "; bed at {:.4g} rad/s, {:.3g} of the critical {:.4g}; empty core {:.3g} of the tank",
-      bedRotation(measures), bedRotation(measures) / critical, critical, coreRadius(measures) / tank.radius);
+  sentence +=
+      fmt::format("; bed at {:.4g} rad/s, {:.3g} of the critical {:.4g}; empty core {:.3g} of the tank",
+                  bedRotation(measures), std::abs(bedRotation(measures)) / critical, critical,
+                  coreRadius(measures) / tank.radius);
   if (bounce > 0) sentence += fmt::format("; bounces every {:.4g} s", bounce);
   results.sentences.push_back(std::move(sentence));
   return results;
