@@ -24,6 +24,17 @@ CoarseAverage& CoarseAverage::operator+=(const CoarseAverage& other) {
   return *this;
 }
 
+CoarseAverage& CoarseAverage::operator*=(double factor) {
+  mass *= factor;
+  volume *= factor;
+  momentum *= factor;
+  flux *= factor;
+  contactStress *= factor;
+  massGradient *= factor;
+  momentumGradient *= factor;
+  return *this;
+}
+
 Eigen::Matrix3d CoarseAverage::kineticStress() const {
   return flux - momentum * momentum.transpose() / mass;
 }

@@ -27,6 +27,7 @@ struct CoarseAverage {
   Eigen::Matrix3d momentumGradient = Eigen::Matrix3d::Zero(); ///< d p_row / d x_column
 
   CoarseAverage& operator+=(const CoarseAverage& other);
+  CoarseAverage& operator*=(double factor);
 
   Vec3 velocity() const { return momentum / mass; }
   /// <|v - u|^2> / 3 [m^2/s^2], u at the same point.

@@ -117,7 +117,7 @@ Curve outletVelocities(const SeriesColumns& rows, const OutletFrame& outlet, con
     s.error.push_back(std::sqrt(variance(speeds[k]) / static_cast<double>(speeds[k].size())));
   }
   curve.series.push_back(std::move(s));
-  curve.numbers = {{"mean", mean(all.speed)}, {"deviation", std::sqrt(variance(all.speed))}};
+  curve.numbers = {{"mean_speed", mean(all.speed)}, {"speed_deviation", std::sqrt(variance(all.speed))}};
   return curve;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sandglass::analysis {
@@ -27,6 +28,47 @@ bool sharesX(const Curve& curve) {
   return true;
 }
 
+/// A name of `numbers` has one unit wherever it occurs; "" where it has none.
+std::string unitOf(const Curve& curve, std::string name) {
+  static const std::map<std::string, std::string> units{{"angle", "deg"},
+                                                        {"angle_left", "deg"},
+                                                        {"angle_right", "deg"},
+                                                        {"apex", "m"},
+                                                        {"beverloo_rate", "kg/s"},
+                                                        {"bounce_period", "s"},
+                                                        {"critical_rotation", "rad/s"},
+                                                        {"curvature", "1/m"},
+                                                        {"curvature_of_rotation", "1/m"},
+                                                        {"cutoff", "m"},
+                                                        {"density", "1/m^3"},
+                                                        {"depth", "m"},
+                                                        {"diameter", "m"},
+                                                        {"diffusion", "m^2/s"},
+                                                        {"grain_mean_force", "N"},
+                                                        {"mass_end", "kg"},
+                                                        {"mass_start", "kg"},
+                                                        {"mean_speed", "m/s"},
+                                                        {"range_end", "s"},
+                                                        {"range_start", "s"},
+                                                        {"rate", "kg/s"},
+                                                        {"rate_per_depth", "kg/(m s)"},
+                                                        {"rms", "m"},
+                                                        {"rotation", "rad/s"},
+                                                        {"rotation_of_surface", "rad/s"},
+                                                        {"settled", "s"},
+                                                        {"speed_deviation", "m/s"},
+                                                        {"start", "s"},
+                                                        {"wall_mean_force", "N"}};
+  static const std::vector<std::string> ofDistributions{"mean",      "median",   "standard_deviation",
+                                                        "deviation", "shortest", "longest"};
+  for (const char* error : {"_standard_error", "_error"})
+    if (const auto at = name.find(error); at != std::string::npos) name.resize(at);
+  if (std::find(ofDistributions.begin(), ofDistributions.end(), name) != ofDistributions.end())
+    return curve.x.unit;
+  const auto found = units.find(name);
+  return found == units.end() ? "" : found->second;
+}
+
 nlohmann::json axisJson(const Axis& axis) {
   return {{"name", axis.name}, {"unit", axis.unit}};
 }
@@ -38,8 +80,9 @@ nlohmann::json axisJson(const Axis& axis) {
 std::string toCsv(const Curve& curve) {
   std::string out = comment("title", curve.title) + comment("definition", curve.definition);
   if (curve.frames > 0) out += comment("frames", fmt::format("{}", curve.frames));
+  if (!curve.series.empty()) out += comment("values", axisText(curve.y));
   for (const auto& [key, value] : curve.numbers)
-    out += comment(key, fmt::format("{}", value));
+    out += comment(axisText({key, unitOf(curve, key)}), fmt::format("{}", value));
   for (const auto& mark : curve.marks)
     out += comment("mark " + mark.label, fmt::format("{}", mark.position));
   for (const auto& [key, value] : curve.provenance)
@@ -49,9 +92,9 @@ std::string toCsv(const Curve& curve) {
   if (sharesX(curve)) {
     out += csvCell(axisText(curve.x));
     for (const auto& s : curve.series) {
-      const std::string name = s.name.empty() ? axisText(curve.y) : s.name;
-      out += "," + csvCell(name);
-      if (!s.error.empty()) out += "," + csvCell(name + " error");
+      const std::string& name = s.name.empty() ? curve.y.name : s.name;
+      out += "," + csvCell(axisText({name, curve.y.unit}));
+      if (!s.error.empty()) out += "," + csvCell(axisText({name + " error", curve.y.unit}));
     }
     out += "\n";
     for (std::size_t i = 0; i < curve.series.front().x.size(); ++i) {
@@ -76,6 +119,9 @@ std::string toJson(const Curve& curve) {
   nlohmann::json j{{"name", curve.name},     {"title", curve.title},     {"definition", curve.definition},
                    {"frames", curve.frames}, {"numbers", curve.numbers}, {"provenance", curve.provenance},
                    {"x", axisJson(curve.x)}, {"y", axisJson(curve.y)}};
+  j["number_units"] = nlohmann::json::object();
+  for (const auto& [key, unused] : curve.numbers)
+    if (const auto unit = unitOf(curve, key); !unit.empty()) j["number_units"][key] = unit;
   j["series"] = nlohmann::json::array();
   for (const auto& s : curve.series) {
     nlohmann::json series{{"name", s.name}, {"x", s.x}, {"y", s.y}};

@@ -43,15 +43,16 @@ struct Curve {
 /// Rows of named columns; numbers only, but for a first column of names where rows have them.
 struct Table {
   std::string name, title, definition;
-  std::vector<Axis> columns; ///< of the numbers
+  std::vector<Axis> columns;             ///< of the numbers
   std::vector<std::vector<double>> rows; ///< NaN: an empty cell
   std::map<std::string, std::string> provenance;
   std::string rowTitle{};              ///< heading of the names
   std::vector<std::string> rowNames{}; ///< one for each row, or none
 };
 
-/// CSV: a comment header (title, definition, frames, numbers, provenance), then x,y[,error] columns; series
-/// of unequal x follow each other with their name in the first column.
+/// CSV: a comment header (title, definition, frames, what the values are, numbers, provenance), then
+/// x,y[,error] columns, each with its unit; series of unequal x follow each other with their name in the
+/// first column. Numbers of the same name have the same unit in every Curve.
 std::string toCsv(const Curve& curve);
 std::string toJson(const Curve& curve);
 std::string toCsv(const Table& table);

@@ -1,6 +1,7 @@
 // Coarse-grained fields on a grid, averaged over time, and profiles taken from them.
 
 #include "analysis/coarse_graining.h"
+#include "analysis/flow_profiles.h"
 #include "analysis/free_surface.h"
 #include "analysis/grain_sizes.h"
 #include "analysis/kinds/kinds.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace sandglass::analysis {
 
@@ -32,6 +34,7 @@ public:
     const auto averages = grainer.at(nodes_);
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       sum_[k] += averages[k];
+    profiles_->add(grainer);
     ++frames_;
   }
 
@@ -83,10 +86,12 @@ public:
                    {"kinetic_stress", "Pa"}, {"strain_rate", "1/s"},
                    {"contact_stress", "Pa"}};
     byHeight(field, results);
-    acrossHeights(field, results);
+    for (auto& curve : profiles_->curves(field.definition))
+      results.curves.push_back(std::move(curve));
     results.sentences.push_back(fmt::format("fields: {} x {} x {} nodes, kernel width {:.3g} d, {} frame{}",
                                             field.count[0], field.count[1], field.count[2],
                                             knobs_.number("width"), frames_, frames_ == 1 ? "" : "s"));
+    if (const auto missing = profiles_->emptyLines(); !missing.empty()) results.sentences.push_back(missing);
     results.fields.push_back(std::move(field));
     return results;
   }
@@ -132,6 +137,7 @@ private:
         for (int a = 0; a < field_.count[0]; ++a)
           nodes_.push_back(field_.node(a, b, c));
     sum_.resize(nodes_.size());
+    profiles_.emplace(profileLines());
   }
 
   /// Averages over all nodes of a height, by mass where they are of grains.
@@ -173,48 +179,42 @@ private:
               [&](std::size_t k) { return field.scalars.at("pressure")[k]; });
   }
 
-  /// Downward velocity against the distance from the axis through the grid's middle, at three or the given
-  /// heights.
-  void acrossHeights(const Field& field, Results& results) const {
-    const UpFrame axes(context_.facts.up.value_or(Vec3::UnitZ()));
-    const double d = context_.diameter, width = knobs_.number("spacing") * d;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    Vec3 middle = Vec3::Zero();
-    for (const auto& x : nodes_) {
-      low = std::min(low, x.dot(axes.up)), high = std::max(high, x.dot(axes.up));
-      middle += x / static_cast<double>(nodes_.size());
+  /// Lines at the given heights (none: three) and radii.
+  ProfileOptions profileLines() const {
+    ProfileOptions lines;
+    const double d = context_.diameter;
+    lines.axes = UpFrame(context_.facts.up.value_or(Vec3::UnitZ()));
+    lines.step = knobs_.number("spacing") * d;
+    lines.diameter = d;
+    lines.lower = Vec3::Constant(std::numeric_limits<double>::infinity()), lines.upper = -lines.lower;
+    for (const auto& x : nodes_)
+      for (const double side : {-0.5, 0.5}) {
+        const Vec3 corner = x + side * field_.spacing;
+        const Vec3 at(corner.dot(lines.axes.e1), corner.dot(lines.axes.e2), corner.dot(lines.axes.up));
+        lines.lower = lines.lower.cwiseMin(at), lines.upper = lines.upper.cwiseMax(at);
+      }
+    const Vec3 middle = 0.5 * (lines.lower + lines.upper);
+    lines.axis = context_.facts.outletCentre.value_or(
+        middle.x() * lines.axes.e1 + middle.y() * lines.axes.e2 + middle.z() * lines.axes.up);
+    const std::string across = knobs_.text("across");
+    if (across == "auto" && context_.facts.slot) lines.across = context_.facts.slot->across;
+    if (across == "x" || across == "y" || across == "z") {
+      Vec3 n = Vec3::Zero();
+      n[across[0] - 'x'] = 1;
+      n -= n.dot(lines.axes.up) * lines.axes.up;
+      if (n.norm() < 1e-3)
+        throw InputError(
+            fmt::format("fields.across is {}, but that is the direction of up: choose another", across));
+      lines.across = n.normalized();
     }
-    std::vector<double> heights;
     for (const double h : knobs_.numbers("heights"))
-      heights.push_back(low + h * d);
-    if (heights.empty())
-      heights = {low + 0.25 * (high - low), low + 0.5 * (high - low), low + 0.75 * (high - low)};
-    Curve curve;
-    curve.name = "velocity_profiles";
-    curve.title = "Downward velocity across the flow";
-    curve.definition = "by distance from the axis through the middle, weighted by mass; " + field.definition;
-    curve.x = {"distance", "m"};
-    curve.y = {"velocity against up", "m/s"};
-    curve.frames = frames_;
-    for (const double h : heights) {
-      std::map<long, std::pair<double, double>> rings;
-      for (std::size_t k = 0; k < nodes_.size(); ++k) {
-        if (std::abs(nodes_[k].dot(axes.up) - h) > 0.5 * width * (1 + 1e-9)) continue;
-        const Vec3& u = field.vectors.at("velocity")[k];
-        if (!u.allFinite()) continue;
-        const Vec3 off = nodes_[k] - middle;
-        auto& ring = rings[std::lround((off - off.dot(axes.up) * axes.up).norm() / width)];
-        ring.first -= u.dot(axes.up) * sum_[k].mass;
-        ring.second += sum_[k].mass;
-      }
-      Series series{fmt::format("at {:.4g} m", h), {}, {}, {}};
-      for (const auto& [ring, sums] : rings) {
-        series.x.push_back(static_cast<double>(ring) * width);
-        series.y.push_back(sums.first / sums.second);
-      }
-      if (!series.x.empty()) curve.series.push_back(std::move(series));
-    }
-    if (!curve.series.empty()) results.curves.push_back(std::move(curve));
+      lines.heights.push_back(h * d);
+    if (lines.heights.empty())
+      for (const double share : {0.25, 0.5, 0.75})
+        lines.heights.push_back(lines.lower.z() + share * (lines.upper.z() - lines.lower.z()));
+    for (const double r : knobs_.numbers("radii"))
+      lines.radii.push_back(r * d);
+    return lines;
   }
 
   Parameters knobs_;
@@ -222,6 +222,7 @@ private:
   Field field_;
   std::vector<Vec3> nodes_;
   std::vector<CoarseAverage> sum_;
+  std::optional<FlowProfiles> profiles_;
   std::size_t frames_ = 0;
   bool contacts_ = false;
 };
@@ -229,13 +230,13 @@ private:
 } // namespace
 
 AnalysisKind fieldsKind() {
-  ParameterSpec heights{.name = "heights",
-                        .type = ParameterType::numbers,
-                        .unit = "1",
-                        .description =
-                            "of the velocity profiles, in diameters above the lowest node; none: three",
-                        .fallback = std::vector<double>{},
-                        .minimum = 0};
+  const auto numbers = [](std::string name, std::vector<double> fallback, std::string description) {
+    return ParameterSpec{.name = std::move(name),
+                         .type = ParameterType::numbers,
+                         .unit = "1",
+                         .description = std::move(description),
+                         .fallback = std::move(fallback)};
+  };
   return {
       .name = "fields",
       .title = "Fields",
@@ -244,8 +245,17 @@ AnalysisKind fieldsKind() {
           "image data, and profiles",
       .source = "Goldhirsch 2010; Weinhart et al. 2012",
       .needs = {.quantities = {quantity::radius, quantity::velocity}, .grains = 1},
-      .knobs = {numberKnob("width", 1, 0, 1000, "w of the kernel, in diameters; it ends at 2 w", true),
-                numberKnob("spacing", 1, 0, 1000, "of the grid, in diameters", true), std::move(heights)},
+      .knobs =
+          {numberKnob("width", 1, 0, 1000, "w of the kernel, in diameters; it ends at 2 w", true),
+           numberKnob("spacing", 1, 0, 1000, "of the grid and of the profiles' stations, in diameters", true),
+           numbers("heights", {},
+                   "of the profiles across the flow, along up from the origin, in diameters; none: three"),
+           numbers("radii", {0},
+                   "of the profiles up the flow: distances from the axis (the outlet's, else the middle), in "
+                   "diameters"),
+           choiceKnob("across", "auto", {"auto", "axis", "x", "y", "z"},
+                      "distances from the axis, or beside the plane through it with this normal; auto: "
+                      "across a slot, else from the axis")},
       .make = [](const Parameters& knobs, const AnalysisContext& context) -> std::unique_ptr<Analysis> {
         return std::make_unique<FieldAnalysis>(knobs, context);
       }};

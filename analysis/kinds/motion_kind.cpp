@@ -105,7 +105,7 @@ public:
       sentence += fmt::format(" D = {:.4g} +- {:.1g} m^2/s,", line.slope / 6, line.slopeError / 6);
     }
     if (!series.x.empty()) {
-      sentence += fmt::format(" {:.3g} d after {:.4g} s", std::sqrt(series.y.back()) / context_.diameter,
+      sentence += fmt::format(" {:.3g} d after {:.4g} s,", std::sqrt(series.y.back()) / context_.diameter,
                               series.x.back());
       msd.series.push_back(std::move(series));
       results.curves.push_back(std::move(msd));
@@ -153,11 +153,10 @@ private:
     curve.y = {"<s^2> / d^2", ""};
     curve.frames = frames_.size();
     for (const auto& [name, axis] : {std::pair("first", axes.e1), {"second", axes.e2}}) {
-      Series series{
-          fmt::format("{} level direction ({:.3g} {:.3g} {:.3g})", name, axis.x(), axis.y(), axis.z()),
-          {},
-          {},
-          {}};
+      // + 0.0: no minus before a zero
+      const std::string direction =
+          fmt::format("{:.3g} {:.3g} {:.3g}", axis.x() + 0.0, axis.y() + 0.0, axis.z() + 0.0);
+      Series series{fmt::format("{} level direction ({})", name, direction), {}, {}, {}};
       for (std::size_t f = 1; f < frames_.size(); ++f) {
         double sum = 0, squares = 0, n = 0;
         for (const auto& [id, path] : frames_[f].path)
@@ -177,8 +176,8 @@ private:
       const std::string key = std::string("b_") + name;
       curve.numbers[key] = line.slope / 2;
       curve.numbers[key + "_error"] = line.slopeError / 2;
-      sentence += fmt::format(" b = {:.3g} +- {:.1g} d along ({:.3g} {:.3g} {:.3g}),", line.slope / 2,
-                              line.slopeError / 2, axis.x(), axis.y(), axis.z());
+      sentence +=
+          fmt::format(" b = {:.3g} +- {:.1g} d along ({}),", line.slope / 2, line.slopeError / 2, direction);
       curve.series.push_back(std::move(series));
     }
     if (curve.series.empty()) return;

@@ -202,8 +202,8 @@ Results VoidAnalysis::results() const {
                     wall),
         largest(v2_));
     v2.numbers["sampling_error"] = mean(v2Error_);
-    sentence += fmt::format(", V2 mean {:.4g} d (too small by about {:.1g} d at most)", bulkOr(v2, "mean"),
-                            mean(v2Error_));
+    sentence +=
+        fmt::format(", V2 mean {:.4g} d (too small by about {:.1g} d)", bulkOr(v2, "mean"), mean(v2Error_));
     results.curves.push_back(std::move(v2));
   }
   if (!v3_.bulk.empty() || !v3_.wall.empty()) {

@@ -301,6 +301,16 @@ void addAnalyze(CLI::App& app, Action& action) {
                    "(inhomogeneous)")
       ->capture_default_str();
   command
+      ->add_option("--heights", o.heights,
+                   "heights of the profiles of --fields across the flow, along up from the origin: \"8 "
+                   "cm,12 cm\" or 5d,10d (default: three)")
+      ->type_name("LENGTH,...");
+  command
+      ->add_option("--radii", o.radii,
+                   "distances from the axis of the profiles of --fields up the flow: \"0,1 cm\" or 0,5d "
+                   "(default: 0)")
+      ->type_name("LENGTH,...");
+  command
       ->add_option("--frames", o.frames,
                    "indices for g(r) and packing, both ends used: 10:20, 10:, :, 10 (default: the last frame "
                    "before a gate opens, or the last)")

@@ -99,7 +99,8 @@ void analyzeOutflow(const Source& source, const AnalyzeOptions&, ResultFiles& fi
   const Curve places = write(outletPositions(rows, outlet, file.string()));
   const Curve speeds = write(outletVelocities(rows, outlet, file.string()));
   fmt::print("{}outflow: {} grains, {:.4g} m/s on the mean (standard deviation {:.3g} m/s)\n", source.prefix,
-             places.numbers.at("grains"), speeds.numbers.at("mean"), speeds.numbers.at("deviation"));
+             places.numbers.at("grains"), speeds.numbers.at("mean_speed"),
+             speeds.numbers.at("speed_deviation"));
   try {
     const Curve mixture = write(dischargeSegregation(rows, source.facts.densities, file.string()));
     const auto& n = mixture.numbers;

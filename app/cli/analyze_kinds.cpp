@@ -32,6 +32,14 @@ Parameters knobsFor(const AnalysisKind& kind, const AnalyzeOptions& options, dou
     knobs.set("bins", static_cast<std::int64_t>(options.bins));
     knobs.set("r_max", lengthOption("--r-max", options.rMax, diameter) / diameter);
   }
+  if (kind.name == "fields")
+    for (const auto& [knob, text] : {std::pair{"heights", &options.heights}, {"radii", &options.radii}}) {
+      if (text->empty()) continue;
+      auto places = placesOption(fmt::format("--{}", knob), *text, diameter);
+      for (double& x : places)
+        x /= diameter;
+      knobs.set(knob, std::move(places));
+    }
   for (const auto& text : options.knobs) {
     const auto dot = text.find('.'), equals = text.find('=');
     if (dot == std::string::npos || equals == std::string::npos || dot > equals)
@@ -106,6 +114,10 @@ void analyzeKind(const AnalysisKind& kind, const Source& source, const AnalyzeOp
                  ResultFiles& files) {
   auto [from, to] = framesFor(source, options);
   if (kind.needs.frames > 1 && options.frames.empty()) from = 0, to = source.frames->size() - 1;
+  // Runs often begin empty and are poured into.
+  while (kind.needs.frames > 1 && options.frames.empty() && from < to &&
+         source.frames->load(from)->size() == 0)
+    ++from;
   if (to - from + 1 < kind.needs.frames)
     throw InputError(
         fmt::format("{} needs at least {} frames, but has {}", kind.title, kind.needs.frames, to - from + 1));

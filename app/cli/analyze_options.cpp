@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 namespace sandglass::cli {
@@ -27,13 +28,29 @@ double metres(const std::string& option, const std::string& text) {
   }
 }
 
-} // namespace
-
-double lengthOption(const std::string& option, const std::string& text, double diameter) {
+/// In diameters or in metres.
+double place(const std::string& option, const std::string& text, double diameter) {
   double value = 0;
   const bool inDiameters = text.size() > 1 && text.back() == 'd' &&
                            parse(std::string_view(text).substr(0, text.size() - 1), value);
-  value = inDiameters ? value * diameter : metres(option, text);
+  return inDiameters ? value * diameter : metres(option, text);
+}
+
+} // namespace
+
+std::vector<double> placesOption(const std::string& option, const std::string& text, double diameter) {
+  std::vector<double> places;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::size_t start = std::min(text.find_first_not_of(' ', from), comma);
+    places.push_back(place(option, text.substr(start, comma - start), diameter));
+    from = comma + 1;
+  }
+  return places;
+}
+
+double lengthOption(const std::string& option, const std::string& text, double diameter) {
+  const double value = place(option, text, diameter);
   if (!(value > 0)) throw InputError(fmt::format("{} is '{}', but must be above 0", option, text));
   return value;
 }

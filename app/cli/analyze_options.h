@@ -26,12 +26,16 @@ struct AnalyzeOptions {
   std::vector<std::string> kinds; ///< names of analyses asked for
   std::vector<std::string> knobs; ///< "gr.bins=400"
   std::string up;                 ///< "0,0,1"
+  std::string heights, radii;     ///< of profiles: "8 cm,12 cm" or "5d,10d"
   bool list = false;
   ImportArguments import;
 };
 
 /// "5d" in grain diameters, "12 mm" or "0.012" in metres. Throws InputError naming the option.
 double lengthOption(const std::string& option, const std::string& text, double diameter);
+
+/// "8 cm,12 cm" or "0,5d": any sign, in metres. Throws InputError naming the option.
+std::vector<double> placesOption(const std::string& option, const std::string& text, double diameter);
 
 /// "y>1cm", "x<0": limits laid into the region. Throws InputError.
 void addLimits(const std::vector<std::string>& limits, analysis::RegionOptions& region);

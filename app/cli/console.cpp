@@ -34,26 +34,28 @@ ProgressBar::ProgressBar(std::string what)
     : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()),
       last_(start_) {}
 
-ProgressBar::~ProgressBar() { finish(); }
+ProgressBar::~ProgressBar() {
+  finish();
+}
 
 void ProgressBar::update(double fraction, double secondsLeft, const std::string& detail) {
   using namespace std::chrono;
   const auto now = steady_clock::now();
   if (now - start_ < 1s) return;
   fraction = std::clamp(fraction, 0.0, 1.0);
-  const std::string left = secondsLeft >= 0 ? duration(secondsLeft) + " left" : "";
+  const std::string left = secondsLeft >= 0 ? duration(secondsLeft) + " left  " : "";
   if (terminal_) {
     if (shown_ && now - last_ < 100ms) return;
     constexpr int width = 30;
     const int filled = static_cast<int>(fraction * width);
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %  {}  {}\x1b[K", what_, "", filled, "", width - filled,
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %  {}{}\x1b[K", what_, "", filled, "", width - filled,
                100 * fraction, left, detail);
     std::fflush(stderr);
   } else {
     const int tenth = static_cast<int>(fraction * 10);
     if (tenth == lastTenth_ && now - last_ < 30s) return;
     lastTenth_ = tenth;
-    fmt::print(stderr, "{}: {:.0f} %, {} {}\n", what_, 100 * fraction, left, detail);
+    fmt::print(stderr, "{}: {:.0f} %, {}{}\n", what_, 100 * fraction, left, detail);
   }
   shown_ = true;
   last_ = now;

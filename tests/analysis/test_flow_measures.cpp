@@ -140,6 +140,39 @@ TEST_CASE("clumps are connected groups", "[flow]") {
   CHECK(r.curves[0].series[0].y == std::vector<double>{1.0 / 7, 2.0 / 7, 4.0 / 7});
 }
 
+TEST_CASE("clumps below an outlet: joined by bridges, apart from the stream", "[flow]") {
+  // The outlet is at z = 6. Three grains hang on the stream, from 6.6 down to 4.2; below, a pair with a
+  // liquid bridge across a gap of 0.2, and a pair as near as that without one. (Anand 2009: the largest clump
+  // below.)
+  Frame frame = frameOf({Vec3(5, 5, 6.6), Vec3(5, 5, 5.4), Vec3(5, 5, 4.2), Vec3(2, 2, 2), Vec3(3.2, 2, 2),
+                         Vec3(7, 2, 2), Vec3(8.2, 2, 2)},
+                        Vec3::Constant(10), {false, false, false}, 0.5);
+  const auto bridge = [](std::int64_t a, std::int64_t b) {
+    FrameContact c;
+    c.a = a;
+    c.b = b;
+    c.overlap = -0.2;
+    return c;
+  };
+  frame.contacts = {bridge(0, 1), bridge(1, 2), bridge(3, 4)};
+  const AnalysisKind& kind = analysisKind("clumps");
+  AnalysisContext context;
+  context.limits.upper.z() = 6 - 1; // a diameter below the outlet
+  const auto sizes = [&](const char* links, const char* whole) {
+    Parameters knobs = defaultKnobs(kind);
+    setKnob(knobs, kind, "links", links);
+    setKnob(knobs, kind, "whole", whole);
+    std::vector<double> values =
+        analyze(kind, knobs, context, {std::make_shared<Frame>(frame)}).grains[1].values;
+    for (double& v : values)
+      if (std::isnan(v)) v = 0;
+    return values;
+  };
+  CHECK(sizes("contacts", "true") == std::vector<double>{0, 0, 0, 2, 2, 1, 1});
+  CHECK(sizes("contacts", "false") == std::vector<double>{0, 0, 1, 2, 2, 1, 1});
+  CHECK(sizes("gaps", "true") == std::vector<double>{0, 0, 1, 1, 1, 1, 1});
+}
+
 TEST_CASE("fabric of known directions", "[flow]") {
   Frame frame = frameOf({Vec3(1, 1, 1), Vec3(1, 1, 2)}, Vec3::Constant(5), {false, false, false}, 0.5);
   const auto contact = [](const Vec3& n, double f) {

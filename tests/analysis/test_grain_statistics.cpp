@@ -216,6 +216,6 @@ TEST_CASE("places and speeds in an outlet: uniform across a slot, uniform over a
   const double uniform = 1 / (std::numbers::pi * 1e-4);
   for (std::size_t k = 0; k < 15; ++k)
     CHECK(std::abs(area.series[0].y[k] - uniform) < 5 * area.series[0].error[k]);
-  CHECK(outletVelocities(disc, outlet, "").numbers.at("mean") == Approx(0.7));
+  CHECK(outletVelocities(disc, outlet, "").numbers.at("mean_speed") == Approx(0.7));
   CHECK_THROWS_WITH(outletPositions({}, outlet, "d.csv"), Contains("no column 'x'"));
 }

@@ -25,8 +25,9 @@ Curve sample() {
 
 TEST_CASE("a curve as CSV reads back to the last digit", "[result]") {
   CHECK(toCsv(sample()) ==
-        "# title: Pair correlation\n# definition: E3\n# frames: 3\n# rate: 0.1\n# provenance scene: ab12\n"
-        "r / d,\"one, two\",\"one, two error\"\n1,0.1,0.5\n2,0.3333333333333333,0.25\n");
+        "# title: Pair correlation\n# definition: E3\n# frames: 3\n# values: mass [kg]\n# rate [kg/s]: 0.1\n"
+        "# provenance scene: ab12\nr / d,\"one, two [kg]\",\"one, two error "
+        "[kg]\"\n1,0.1,0.5\n2,0.3333333333333333,0.25\n");
   CHECK(std::stod("0.3333333333333333") == 1.0 / 3.0);
 }
 
@@ -45,6 +46,7 @@ TEST_CASE("a curve as JSON", "[result]") {
   CHECK(j["series"][0]["y"][1].get<double>() == 1.0 / 3.0);
   CHECK(j["series"][0]["y"][0].is_null());
   CHECK(j["numbers"]["rate"] == 0.1);
+  CHECK(j["number_units"]["rate"] == "kg/s");
   CHECK(j["y"]["unit"] == "kg");
 }
 

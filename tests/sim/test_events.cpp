@@ -44,24 +44,34 @@ void requireSameFrames(const std::filesystem::path& a, const std::filesystem::pa
     requireSame(*first->load(k), *second->load(k));
 }
 
-} // namespace
-
-TEST_CASE("A grain whose gravity turns at a step moves on two exact parabolas", "[events]") {
-  const Scene scene = parseScene(R"(
-gravity = ["0", "0", "-10 m/s^2"]
-[domain]
-lower = ["-1 m", "-1 m", "-1 m"]
-upper = ["1 m", "1 m", "1 m"]
+/// A scene of glass beads of 2 mm: `head` holds the keys above all tables and the domain, `laws` those of the
+/// contact, `rest` walls, fills, stages and what else there is.
+std::string beadScene(const std::string& head, const std::string& laws, const std::string& rest) {
+  return head + R"(
 [[material]]
 name = "glass"
 density = "2500 kg/m^3"
-[[contact]]
-between = ["glass", "glass"]
-normal = { law = "linear", collision_time = "5e-4 s", restitution = 0.9 }
 [[species]]
 name = "bead"
 material = "glass"
 size = { distribution = "single", diameter = "2 mm" }
+[[contact]]
+between = ["glass", "glass"]
+)" + laws +
+         rest;
+}
+
+/// One bead with 1 m/s along x, 0.1 s under a gravity that turns half way.
+const std::string flight = beadScene(R"(
+gravity = ["0", "0", "-10 m/s^2"]
+[domain]
+lower = ["-1 m", "-1 m", "-1 m"]
+upper = ["1 m", "1 m", "1 m"]
+)",
+                                     R"(
+normal = { law = "linear", collision_time = "5e-4 s", restitution = 0.9 }
+)",
+                                     R"(
 [[fill]]
 kind = "list"
 species = "bead"
@@ -74,8 +84,49 @@ step = 5000
 gravity = ["0", "6 m/s^2", "0"]
 [accuracy]
 time_step = "10 us"
+)");
+
+/// Beads on a plate that goes up and down, in a box that is periodic to the sides.
+const std::string shaker = beadScene(R"(
+title = "Shaker"
+seed = 5
+[domain]
+lower = ["0", "0", "-2 mm"]
+upper = ["12 mm", "12 mm", "40 mm"]
+periodic = ["x", "y"]
 )",
-                                 "flight");
+                                     R"(
+normal = { law = "linear", collision_time = "5e-4 s", restitution = 0.8 }
+tangential = { law = "spring", friction = 0.3, stiffness_ratio = 0.2857142857142857 }
+)",
+                                     R"(
+[[wall]]
+name = "plate"
+kind = "plane"
+material = "glass"
+point = ["0", "0", "0"]
+normal = ["0", "0", "1"]
+motion = { kind = "oscillate", amplitude = ["0", "0", "1 mm"], frequency = "25 Hz" }
+[[fill]]
+kind = "lattice"
+species = "bead"
+lower = ["0", "0", "1 mm"]
+upper = ["12 mm", "12 mm", "9 mm"]
+structure = "sc"
+spacing = "2.4 mm"
+velocity_spread = ["0.05 m/s", "0.05 m/s", "0.05 m/s"]
+[[stage]]
+name = "shake"
+until = { duration = "0.1 s" }
+[output]
+frame_interval = "5 ms"
+checkpoint_interval = "7 ms"
+)");
+
+} // namespace
+
+TEST_CASE("A grain whose gravity turns at a step moves on two exact parabolas", "[events]") {
+  const Scene scene = parseScene(flight, "flight");
   Run run(scene, {});
   FramePtr last;
   run.onSavedFrame = [&](FramePtr frame) { last = std::move(frame); };
@@ -174,52 +225,6 @@ TEST_CASE("A run changed while it went on leaves a scene that gives the same bit
                            original->load(original->size() - 1)->position));
   }
 }
-
-namespace {
-
-/// Beads on a plate that goes up and down, in a box that is periodic to the sides.
-const char* const shaker = R"(
-title = "Shaker"
-seed = 5
-[domain]
-lower = ["0", "0", "-2 mm"]
-upper = ["12 mm", "12 mm", "40 mm"]
-periodic = ["x", "y"]
-[[material]]
-name = "glass"
-density = "2500 kg/m^3"
-[[contact]]
-between = ["glass", "glass"]
-normal = { law = "linear", collision_time = "5e-4 s", restitution = 0.8 }
-tangential = { law = "spring", friction = 0.3, stiffness_ratio = 0.2857142857142857 }
-[[species]]
-name = "bead"
-material = "glass"
-size = { distribution = "single", diameter = "2 mm" }
-[[wall]]
-name = "plate"
-kind = "plane"
-material = "glass"
-point = ["0", "0", "0"]
-normal = ["0", "0", "1"]
-motion = { kind = "oscillate", amplitude = ["0", "0", "1 mm"], frequency = "25 Hz" }
-[[fill]]
-kind = "lattice"
-species = "bead"
-lower = ["0", "0", "1 mm"]
-upper = ["12 mm", "12 mm", "9 mm"]
-structure = "sc"
-spacing = "2.4 mm"
-velocity_spread = ["0.05 m/s", "0.05 m/s", "0.05 m/s"]
-[[stage]]
-name = "shake"
-until = { duration = "0.1 s" }
-[output]
-frame_interval = "5 ms"
-checkpoint_interval = "7 ms"
-)";
-
-} // namespace
 
 TEST_CASE("A wall's motion goes on from where it is at the pace of an event", "[events]") {
   const Scene scene =
