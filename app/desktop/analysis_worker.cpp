@@ -40,6 +40,15 @@ void AnalysisWorker::compute(const PanelAnalysis& analysis, AnalysisInput input,
   changed_.notify_all();
 }
 
+void AnalysisWorker::forget() {
+  const std::lock_guard lock(mutex_);
+  for (auto& [id, epoch] : epochs_)
+    ++epoch;
+  done_ += orders_.size();
+  orders_.clear();
+  results_.clear();
+}
+
 bool AnalysisWorker::isIdle() const {
   const std::lock_guard lock(mutex_);
   return done_ == asked_ && results_.empty();

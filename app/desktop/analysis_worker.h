@@ -28,6 +28,9 @@ public:
   /// comes meanwhile. `beside`: a simulation runs, to which most of the processor belongs.
   void compute(const PanelAnalysis& analysis, AnalysisInput input, bool restart, bool beside);
 
+  /// Drops all orders and results, that which is being worked on too: another run is shown.
+  void forget();
+
   struct Outcome {
     std::optional<analysis::Results> results; ///< curves begin their definitions with the frame's time
     QString fault;                            ///< why there is none

@@ -52,28 +52,41 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   setObjectName("runPanel");
   setAutoFillBackground(true);
   setBackgroundRole(QPalette::Base);
-  auto* form = form_ = new QFormLayout(this);
-  form->setContentsMargins(12, 10, 12, 10);
-  form->setVerticalSpacing(7);
-  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  form->addRow(heading("Stages"));
+  form_ = new QFormLayout(this);
+  form_->setContentsMargins(12, 10, 12, 10);
+  form_->setVerticalSpacing(7);
+  form_->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  addStages();
+  form_->addRow(heading("Change while it runs"));
+  addGravityAndDrag();
+  addWalls();
+  addField();
+  addEnds();
+  setScene(std::nullopt);
+  setProgress(std::nullopt, false);
+  branch_->setEnabled(false);
+}
+
+void RunPanel::addStages() {
+  form_->addRow(heading("Stages"));
   stages_ = new QListWidget(this);
   stages_->setObjectName("stages");
   stages_->setAccessibleName("Stages of the run");
   stages_->setFocusPolicy(Qt::TabFocus);
   stages_->setSelectionMode(QAbstractItemView::NoSelection);
   stages_->setMaximumHeight(92);
-  form->addRow(stages_);
+  form_->addRow(stages_);
   speed_ = new QComboBox(this);
   speed_->setObjectName("speedLimit");
   speed_->setToolTip("How fast simulated time may pass; the result is the same to the bit");
   for (const auto& pace : paces)
     speed_->addItem(pace.name);
-  form->addRow("Pace", speed_);
+  form_->addRow("Pace", speed_);
   connect(speed_, QOverload<int>::of(&QComboBox::activated), this,
           [this](int k) { Q_EMIT speedLimitChosen(paces[k].ratio); });
+}
 
-  form->addRow(heading("Change while it runs"));
+void RunPanel::addGravityAndDrag() {
   auto* pull = new QHBoxLayout;
   for (std::size_t k = 0; k < 3; ++k) {
     auto* box = gravity_[k] = new QDoubleSpinBox(this);
@@ -88,7 +101,9 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   }
   applyGravity_ = button("applyGravity", "Set", "Let grains fall so from the next step on");
   pull->addWidget(applyGravity_);
-  form->addRow("Gravity", pull);
+  form_->addRow("Gravity", pull);
+  connect(applyGravity_, &QPushButton::clicked, this,
+          [this] { Q_EMIT changeWanted({.gravity = gravity()}); });
   auto* slow = new QHBoxLayout;
   drag_ = new QDoubleSpinBox(this);
   drag_->setObjectName("drag");
@@ -98,74 +113,78 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
   applyDrag_ = button("applyDrag", "Set", "From the next step on, until the next stage begins");
   slow->addWidget(drag_, 1);
   slow->addWidget(applyDrag_);
-  form->addRow("Drag", slow);
+  form_->addRow("Drag", slow);
+  connect(applyDrag_, &QPushButton::clicked, this, [this] { Q_EMIT changeWanted({.drag = drag_->value()}); });
+}
+
+void RunPanel::addWalls() {
   auto* gate = new QHBoxLayout;
   walls_ = new QComboBox(this);
   walls_->setObjectName("wallToRemove");
   removeWall_ = button("removeWall", "Remove", "Take this wall or gate away before the next step");
   gate->addWidget(walls_, 1);
   gate->addWidget(removeWall_);
-  form->addRow("Wall", wall_ = gate);
+  form_->addRow("Wall", wall_ = gate);
+  connect(removeWall_, &QPushButton::clicked, this,
+          [this] { Q_EMIT changeWanted({.removeWalls = {walls_->currentText().toStdString()}}); });
   auto* move = new QHBoxLayout;
   movers_ = new QComboBox(this);
   movers_->setObjectName("wallToPace");
   movers_->setToolTip("A wall with a motion");
-  wallPace_ = new QDoubleSpinBox(this);
-  wallPace_->setObjectName("wallPace");
-  wallPace_->setRange(0, 100);
-  wallPace_->setValue(1);
-  wallPace_->setSingleStep(0.25);
-  wallPace_->setPrefix(QString(QChar(0x00D7)) + " ");
-  wallPace_->setToolTip("Pace of its motion, as a multiple of what the scene says; 0 holds it");
+  wallPace_ =
+      factor("wallPace", 0, 100, "Pace of its motion, as a multiple of what the scene says; 0 holds it");
   applyPace_ = button("applyPace", "Set", "From the next step on the motion goes at this pace");
   move->addWidget(movers_, 1);
   move->addWidget(wallPace_);
   move->addWidget(applyPace_);
-  form->addRow("Motion", motion_ = move);
+  form_->addRow("Motion", motion_ = move);
+  connect(applyPace_, &QPushButton::clicked, this, [this] {
+    Q_EMIT changeWanted({.paceWalls = {movers_->currentText().toStdString()}, .pace = wallPace_->value()});
+  });
+}
+
+void RunPanel::addField() {
   auto* blow = new QHBoxLayout;
   fields_ = new QComboBox(this);
   fields_->setObjectName("fieldToChange");
   fields_->setToolTip("A field of the scene: wind, vortex, gravity");
-  fieldFactor_ = new QDoubleSpinBox(this);
-  fieldFactor_->setObjectName("fieldFactor");
-  fieldFactor_->setRange(-1000, 1000);
-  fieldFactor_->setValue(1);
-  fieldFactor_->setSingleStep(0.25);
-  fieldFactor_->setPrefix(QString(QChar(0x00D7)) + " ");
-  fieldFactor_->setToolTip("Its strength, as a multiple of what the scene says; 0: off");
+  fieldFactor_ =
+      factor("fieldFactor", -1000, 1000, "Its strength, as a multiple of what the scene says; 0: off");
   applyField_ = button("applyField", "Set", "From the next step on the field has this strength");
   blow->addWidget(fields_, 1);
   blow->addWidget(fieldFactor_);
   blow->addWidget(applyField_);
-  form->addRow("Field", field_ = blow);
+  form_->addRow("Field", field_ = blow);
+  connect(applyField_, &QPushButton::clicked, this, [this] {
+    Q_EMIT changeWanted({.fields = {{fields_->currentText().toStdString(), fieldFactor_->value()}}});
+  });
+}
+
+void RunPanel::addEnds() {
   auto* turn = new QHBoxLayout;
   endStage_ = button("endStage", "End stage", "The next stage begins after the next step");
   branch_ = button("branch", "Branch here", "What if: a new run that shares the past up to the frame shown");
   turn->addWidget(endStage_);
   turn->addWidget(branch_);
-  form->addRow(turn);
+  form_->addRow(turn);
+  connect(endStage_, &QPushButton::clicked, this, [this] { Q_EMIT changeWanted({.endStage = true}); });
+  connect(branch_, &QPushButton::clicked, this, &RunPanel::branchWanted);
   events_ = new QLabel(this);
   events_->setObjectName("events");
   events_->setWordWrap(true);
   events_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  form->addRow(events_);
+  form_->addRow(events_);
+}
 
-  connect(applyGravity_, &QPushButton::clicked, this,
-          [this] { Q_EMIT changeWanted({.gravity = gravity()}); });
-  connect(applyDrag_, &QPushButton::clicked, this, [this] { Q_EMIT changeWanted({.drag = drag_->value()}); });
-  connect(removeWall_, &QPushButton::clicked, this,
-          [this] { Q_EMIT changeWanted({.removeWalls = {walls_->currentText().toStdString()}}); });
-  connect(applyPace_, &QPushButton::clicked, this, [this] {
-    Q_EMIT changeWanted({.paceWalls = {movers_->currentText().toStdString()}, .pace = wallPace_->value()});
-  });
-  connect(applyField_, &QPushButton::clicked, this, [this] {
-    Q_EMIT changeWanted({.fields = {{fields_->currentText().toStdString(), fieldFactor_->value()}}});
-  });
-  connect(endStage_, &QPushButton::clicked, this, [this] { Q_EMIT changeWanted({.endStage = true}); });
-  connect(branch_, &QPushButton::clicked, this, &RunPanel::branchWanted);
-  setScene(std::nullopt);
-  setProgress(std::nullopt, false);
-  branch_->setEnabled(false);
+QDoubleSpinBox* RunPanel::factor(const char* name, double low, double high, const QString& tip) {
+  auto* box = new QDoubleSpinBox(this);
+  box->setObjectName(name);
+  box->setRange(low, high);
+  box->setValue(1);
+  box->setSingleStep(0.25);
+  box->setPrefix(QString(QChar(0x00D7)) + " ");
+  box->setToolTip(tip);
+  return box;
 }
 
 QPushButton* RunPanel::button(const char* name, const QString& text, const QString& tip) {

@@ -35,7 +35,14 @@ Q_SIGNALS:
   void branchWanted();
 
 private:
+  void addStages();
+  void addGravityAndDrag();
+  void addWalls();
+  void addField();
+  void addEnds(); ///< of a stage, of the past that runs share
   QPushButton* button(const char* name, const QString& text, const QString& tip);
+  /// By how much something is as strong or fast as the scene says.
+  QDoubleSpinBox* factor(const char* name, double low, double high, const QString& tip);
   /// A row of the form for something that not every scene has.
   void showRow(QLayout* row, bool shown);
   void showStages();

@@ -130,6 +130,7 @@ void MainWindow::enter(Document* document) {
   tabBar_->setCurrentIndex(static_cast<int>(at - documents_.begin()));
   const QSignalBlocker alsoThis(commands_->action("view.beside"));
   commands_->action("view.beside")->setChecked(now_->beside != nullptr);
+  statusBar()->clearMessage(); // of the tab before
   showDocument();
   onState();
 }
@@ -201,6 +202,7 @@ void MainWindow::showDocument() {
   range_ = {};
   viewPanel_->setView(now_->view);
   picture_->clear();
+  analyses_->forget();
   picture_->setHint(title, current.scene ? "Press F5 or Space to run this scene." : "");
   for (auto& [id, panel] : charts_)
     panel->clear(panel->property("hint").toString());

@@ -208,6 +208,21 @@ TEST_CASE("Charts take the ground of the theme", "[desktop]") {
   REQUIRE(waitFor([&] { return qGray(chart->grab().toImage().pixel(2, 2)) == 255; }));
 }
 
+TEST_CASE("An analysis that ends when another tab is shown is not shown there", "[desktop]") {
+  TemporaryFolder folder("desktop-late");
+  Desktop desktop(folder / "run");
+  auto* chart = desktop.child<desktop::ChartPanel>("gr");
+  const auto scene = writeBed(folder / "bed.toml", 8, 8, 0.05);
+  for (int turn = 0; turn < 3; ++turn) {
+    REQUIRE(desktop.open(scene));
+    REQUIRE(waitFor([&] { return desktop.window->shownFrame() != nullptr; })); // g(r) of it begins
+    desktop.key(Qt::Key_T, Qt::ControlModifier);
+    handleEvents(0.5);
+    REQUIRE(waitFor([&] { return desktop.window->isSettled(); }));
+    CHECK_FALSE(chart->curve());
+  }
+}
+
 TEST_CASE("Larger text is larger everywhere, and charts are drawn again for it", "[desktop]") {
   TemporaryFolder folder("desktop-text");
   Desktop desktop(folder / "run");
