@@ -22,10 +22,10 @@ void PairCarrier::retire(PairListing& listing) {
 
 PairCarrier::PairCarrier(const PairListing& past, const double* pastHistory, PairListing& now,
                          const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& wrapped,
-                         int historySize)
+                         int historySize, bool single)
     : past_(past), pastHistory_(pastHistory), now_(now), order_(order), wrapped_(wrapped),
       flat_(reinterpret_cast<const std::int32_t*>(past.pairs.data())),
-      empty_(static_cast<std::int32_t>(past.entries << 1)), historySize_(historySize),
+      empty_(static_cast<std::int32_t>(past.entries << 1)), historySize_(historySize), single_(single),
       imaged_(!now.shiftOf.empty()), sameCodes_(past.codes.reach == now.codes.reach) {}
 
 void PairCarrier::carry(std::int64_t i, const std::int32_t* partners, std::int64_t count,
@@ -45,19 +45,21 @@ void PairCarrier::carry(std::int64_t i, const std::int32_t* partners, std::int64
   _mm256_store_si256(reinterpret_cast<__m256i*>(row.entries.data()), entries);
   row.entries.back() = empty_;
   row.full = row.entries[PairListing::slotCount - 1] != empty_;
-  if (historySize_ == 3)
-    carryRow<3>(row, partners, count, places);
+  if (single_)
+    carryRow<-1, float>(row, partners, count, places);
+  else if (historySize_ == 3)
+    carryRow<3, double>(row, partners, count, places);
   else
-    carryRow<-1>(row, partners, count, places);
+    carryRow<-1, double>(row, partners, count, places);
 }
 
-template <int fixedSize>
+template <int fixedSize, class Real>
 void PairCarrier::carryRow(const Row& row, const std::int32_t* partners, std::int64_t count,
                            const std::int64_t* places) {
   constexpr std::uint64_t lane = PairListing::lane;
   const std::uint64_t size = fixedSize < 0 ? historySize_ : fixedSize;
-  double* const now = now_.history.data();
-  const double* const past = pastHistory_;
+  auto* const now = reinterpret_cast<Real*>(now_.history.data());
+  const auto* const past = reinterpret_cast<const Real*>(pastHistory_);
   const std::int32_t *const order = order_.data(), *const wrapped = wrapped_.data();
   std::uint8_t* const live = now_.live.empty() ? nullptr : now_.live.data();
   const std::uint8_t* const shiftOf = imaged_ ? now_.shiftOf.data() : nullptr;
@@ -77,8 +79,8 @@ void PairCarrier::carryRow(const Row& row, const std::int32_t* partners, std::in
                 (otherCodes | (pastShiftOf[old] != shiftOf[p]) | (wrapped[partner] != row.wrapped));
     if (unsure) old = find(row, matches, partner, p);
     const auto at = static_cast<std::uint64_t>(p), was = static_cast<std::uint64_t>(old);
-    double* to = now + at / lane * lane * size + at % lane;
-    const double* from = past + was / lane * lane * size + was % lane;
+    Real* to = now + at / lane * lane * size + at % lane;
+    const Real* from = past + was / lane * lane * size + was % lane;
     for (std::uint64_t q = 0; q < size; ++q)
       to[q * lane] = from[q * lane];
     if (live) live[p] = past_.live[old];
@@ -87,9 +89,12 @@ void PairCarrier::carryRow(const Row& row, const std::int32_t* partners, std::in
 
 void PairCarrier::startAnew(std::int64_t p) {
   constexpr std::int64_t lane = PairListing::lane;
-  double* to = now_.history.data() + p / lane * lane * historySize_ + p % lane;
-  for (int q = 0; q < historySize_; ++q)
-    to[q * lane] = 0.0;
+  const auto clear = [&](auto* all) {
+    auto* to = all + p / lane * lane * historySize_ + p % lane;
+    for (int q = 0; q < historySize_; ++q)
+      to[q * lane] = 0;
+  };
+  single_ ? clear(reinterpret_cast<float*>(now_.history.data())) : clear(now_.history.data());
   if (!now_.live.empty()) now_.live[p] = 0;
 }
 

@@ -17,10 +17,11 @@ public:
 
   /// `order` gives the old storage index of each grain, and `wrapped` by how many boxes (packed, by old
   /// index) its image counters have grown since then (empty without periodic directions).
-  /// `pastHistory` is the old array of histories with `lane` histories of zeros behind it.
+  /// `pastHistory` is the old array of histories with `lane` histories of zeros behind it; both arrays are of
+  /// floats if they are `single`.
   PairCarrier(const PairListing& past, const double* pastHistory, PairListing& now,
               const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& wrapped,
-              int historySize);
+              int historySize, bool single);
 
   /// The row of grain i, `count` partners whose pairs stand at `places`: copies histories and live flags, or
   /// sets them to zero. The pairs are written already.
@@ -28,7 +29,7 @@ public:
 
 private:
   struct Row; ///< a grain whose old contacts are at hand
-  template <int fixedSize>
+  template <int fixedSize, class Real>
   void carryRow(const Row& row, const std::int32_t* partners, std::int64_t count, const std::int64_t* places);
   void startAnew(std::int64_t p);
   bool sameImage(std::int64_t old, std::int64_t p) const;
@@ -47,6 +48,7 @@ private:
   const std::int32_t* flat_; ///< old pairs as numbers: entry ^ 1 is where the other grain of an entry stands
   const std::int32_t empty_; ///< what stands in an empty old slot
   const int historySize_;
+  const bool single_;
   const bool imaged_, sameCodes_; ///< image codes mean what they meant
 };
 

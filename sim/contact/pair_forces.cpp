@@ -28,6 +28,7 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
   view_.oneType = laws_.typeOf(material, material);
   view_.history = list.history();
   view_.historySize = list.historySize();
+  view_.quiet = list.quiet();
   view_.outputQuads = laws_.outputQuads();
   view_.outputStride = laws_.outputStride();
   view_.places = list.places();

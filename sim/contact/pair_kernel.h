@@ -33,11 +33,12 @@ struct ParticleView {
   std::uint8_t noShift = 0;       ///< the code of the box itself
   const std::uint8_t* material = nullptr;
   int materials = 1;
-  bool oneMaterial = true; ///< all grains are of one
-  int oneType = 0;         ///< its pair with itself
-  double* history = nullptr;
+  bool oneMaterial = true;   ///< all grains are of one
+  int oneType = 0;           ///< its pair with itself
+  double* history = nullptr; ///< floats in mixed precision
   int historySize = 0;
-  int outputQuads = 1;  ///< force; with friction also torque over radius; with rolling also a couple
+  std::uint8_t* quiet = nullptr; ///< of pairs evaluated together, p / lanes: 1 if their histories are zeros
+  int outputQuads = 1;           ///< force; with friction also torque over radius; with rolling also a couple
   int outputStride = 4; ///< doubles a pair: four a quad, or two where quads are of floats (mixed precision)
   const std::int32_t* places = nullptr; ///< eight a grain, as ringEntry() packs them
   bool readsSpin = false, radiusArm = false;

@@ -78,12 +78,15 @@ inline void fillExtras(const ParticleView& v, std::int64_t first, ContactBlock& 
 
 inline void fillHistory(const ParticleView& v, std::int64_t first, ContactBlock& b) {
   constexpr int lanes = ParticleView::lane;
-  for (int c = 0; c < b.size; c += lanes) {
-    const double* from = v.history + (first + c) * v.historySize;
-    for (int k = 0; k < v.historySize; ++k)
-      for (int l = 0; l < lanes; ++l)
-        b.history[k][c + l] = from[k * lanes + l];
-  }
+  const auto copy = [&](const auto* all) {
+    for (int c = 0; c < b.size; c += lanes) {
+      const auto* from = all + (first + c) * v.historySize;
+      for (int k = 0; k < v.historySize; ++k)
+        for (int l = 0; l < lanes; ++l)
+          b.history[k][c + l] = from[k * lanes + l];
+    }
+  };
+  v.mixed ? copy(reinterpret_cast<const float*>(v.history)) : copy(v.history);
 }
 
 inline void writeHistory(const ParticleView& v, std::int64_t first, const ContactBlock& b) {

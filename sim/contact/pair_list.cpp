@@ -67,9 +67,9 @@ void gather(const std::vector<std::vector<PairListing::Extra>>& parts, std::int6
 
 } // namespace
 
-PairList::PairList(const Domain& domain, int historySize, int outputStride, bool keepsLive)
+PairList::PairList(const Domain& domain, int historySize, int outputStride, bool keepsLive, bool single)
     : domain_(domain), historySize_(historySize), outputStride_(outputStride), keepsLive_(keepsLive),
-      memory_(1) {
+      single_(single), memory_(1) {
   for (int k = 0; k < 3; ++k)
     periodic_ = periodic_ || domain.periodic[k];
   now_.groupExtras.assign(1, 0);
@@ -208,7 +208,8 @@ void PairList::layOut() {
   now_.entries = at;
   makeRoom(now_.pairs, at, 1);
   if (periodic_) makeRoom(now_.shiftOf, at, 1); // and one more each to retire
-  makeRoom(now_.history, at * historySize_);
+  makeRoom(now_.history, at * historySize_ / (single_ ? 2 : 1));
+  quiet_.assign(static_cast<std::size_t>(historySize_ > 0 ? at : 0), 0);
   if (keepsLive_) makeRoom(now_.live, at, 1);
   groupEnd_.resize(static_cast<std::size_t>(now_.groups()));
   for (const Range& pad : pads)
@@ -230,7 +231,7 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
   const std::int64_t* id = grains.id.data();
   parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
     PairOrder order;
-    PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), grid_.wrapped(), historySize_);
+    PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), grid_.wrapped(), historySize_, single_);
     for (std::int64_t b = first; b < last; ++b) {
       const Block& block = blocks_[b];
       const std::int64_t chunkEnd = chunkGrains_[block.chunk].end;
@@ -365,6 +366,26 @@ void PairList::findPlaces(Parallel& parallel) {
   gather(lent, now_.groups(), lent_, groupLent_);
 }
 
+std::vector<double> PairList::histories() const {
+  const auto numbers = [&](const auto* all) {
+    return std::vector<double>(all, all + now_.entries * historySize_);
+  };
+  return single_ ? numbers(reinterpret_cast<const float*>(now_.history.data()))
+                 : numbers(now_.history.data());
+}
+
+bool PairList::setHistories(const std::vector<double>& all) {
+  if (all.size() != static_cast<std::size_t>(now_.entries * historySize_)) return false;
+  double* const to = now_.history.data();
+  if (single_)
+    std::transform(all.begin(), all.end(), reinterpret_cast<float*>(to),
+                   [](double value) { return static_cast<float>(value); });
+  else
+    std::copy(all.begin(), all.end(), to);
+  std::fill(quiet_.begin(), quiet_.end(), std::uint8_t{0});
+  return true;
+}
+
 std::array<int, 3> PairList::image(std::int64_t p) const {
   return periodic_ ? now_.codes.image[now_.shiftOf[p]] : std::array<int, 3>{0, 0, 0};
 }
@@ -381,7 +402,7 @@ std::int64_t PairList::imageKey(std::int64_t p, const GrainStore& grains) const 
 
 std::size_t PairList::bytes() const {
   std::size_t total = now_.bytes() + past_.bytes() + memory_.capacity() * sizeof(Quad) +
-                      groupEnd_.capacity() * sizeof(std::int64_t) + grid_.bytes() +
+                      groupEnd_.capacity() * sizeof(std::int64_t) + quiet_.capacity() + grid_.bytes() +
                       rowLength_.capacity() * sizeof(std::int32_t) + filled_.capacity() +
                       places_.capacity() * sizeof(std::int32_t) + lent_.capacity() * sizeof(Extra) +
                       groupLent_.capacity() * sizeof(std::int32_t);

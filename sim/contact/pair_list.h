@@ -42,8 +42,9 @@ public:
     std::int64_t begin = 0, end = 0;
   };
 
-  /// outputStride: doubles that the particle loop writes per pair, as ParticleView has it.
-  PairList(const Domain& domain, int historySize, int outputStride, bool keepsLive);
+  /// outputStride: doubles that the particle loop writes per pair, as ParticleView has it. Histories are
+  /// doubles, or floats if `single`.
+  PairList(const Domain& domain, int historySize, int outputStride, bool keepsLive, bool single = false);
 
   /// Sets `listed.w` of the grains first .. last - 1, of one group. Called from several threads at once, for
   /// different groups. The largest value of all grains must stay what it was.
@@ -58,14 +59,14 @@ public:
   void build(GrainStore& grains, double range, Parallel& parallel, const std::vector<std::uint8_t>& drop = {},
              const Allow& allow = {});
 
-  std::int64_t entries() const { return now_.entries; }         ///< with padding; a multiple of `lane`
-  std::int64_t size() const { return size_; }                   ///< real pairs
-  const std::vector<Pair>& pairs() const { return now_.pairs; } ///< entries() of them
+  std::int64_t entries() const { return now_.entries; }           ///< with padding; a multiple of `lane`
+  std::int64_t size() const { return size_; }                     ///< real pairs
+  const AlignedVector<Pair>& pairs() const { return now_.pairs; } ///< entries() of them
   bool isPadding(std::int64_t p) const { return now_.pairs[p].a >= now_.grains; } ///< a pair of phantoms
   bool periodic() const { return periodic_; }
   /// Vector from the box to the image of b that pair p means: shifts()[shiftOf()[p]]. w is 0. Empty without
   /// periodic directions; padding: the code of no shift.
-  const std::vector<std::uint8_t>& shiftOf() const { return now_.shiftOf; }
+  const AlignedVector<std::uint8_t>& shiftOf() const { return now_.shiftOf; }
   const std::vector<Quad>& shifts() const { return now_.codes.shift; }
   std::array<int, 3> image(std::int64_t p) const;
   /// Box crossings of b against a, which does not change when grains are wrapped: the third part of the key.
@@ -107,10 +108,23 @@ public:
     return {now_.groupExtras[g], now_.groupExtras[g + 1]};
   }
 
-  // Histories: number k of pair p is history()[(p / lane) * lane * historySize + k * lane + p % lane].
+  // Histories: number k of pair p is history()[(p / lane) * lane * historySize + k * lane + p % lane], in
+  // floats if they are single.
   double* history() { return now_.history.data(); }
-  double historyOf(std::int64_t p, int k) const { return now_.history[placeOf(p, k)]; }
-  void setHistory(std::int64_t p, int k, double value) { now_.history[placeOf(p, k)] = value; }
+  double historyOf(std::int64_t p, int k) const {
+    const double* all = now_.history.data();
+    return single_ ? reinterpret_cast<const float*>(all)[placeOf(p, k)] : all[placeOf(p, k)];
+  }
+  void setHistory(std::int64_t p, int k, double value) {
+    if (single_)
+      reinterpret_cast<float*>(now_.history.data())[placeOf(p, k)] = static_cast<float>(value);
+    else
+      now_.history[placeOf(p, k)] = value;
+    for (const int lanes : {1, 4, 8, 16})
+      quiet_[p / lanes] = 0;
+  }
+  /// For loops that pass over pairs at rest, as ParticleView has it; zeros after a build.
+  std::uint8_t* quiet() { return quiet_.data(); }
   /// Outputs of pairs between chunks: those of pair p begin at p * outputStride.
   double* crossingOutput() { return &memory_[0].x; }
   std::uint8_t* live() {
@@ -119,8 +133,9 @@ public:
   int historySize() const { return historySize_; }
   int outputStride() const { return outputStride_; }
 
-  /// For checkpoints: the arrays that cannot be made again from the positions at listing time.
-  AlignedVector<double>& historyArray() { return now_.history; }
+  // For checkpoints: what cannot be made again from the positions at listing time.
+  std::vector<double> histories() const;             ///< as history() has them
+  bool setHistories(const std::vector<double>& all); ///< false, and nothing done, if the size is another
   std::vector<std::uint8_t>& liveArray() { return now_.live; }
 
   std::size_t bytes() const;
@@ -149,18 +164,19 @@ private:
   Domain domain_;
   bool periodic_ = false;
   int historySize_, outputStride_;
-  bool keepsLive_;
+  bool keepsLive_, single_;
   PairListing now_, past_; ///< past_: the listing before, while histories are carried, but for the histories
   std::int64_t size_ = 0;
   AlignedVector<Quad> memory_; ///< outputs of crossing pairs; during a build for anybody
   std::int64_t window_ = 64;
-  std::vector<std::int32_t> places_;
+  AlignedVector<std::int32_t> places_;
   std::vector<Extra> lent_;
   std::vector<std::int32_t> groupLent_;
   Range crossing_;
   std::vector<Range> chunkGrains_, chunkPairs_,
       chunkCrossing_; ///< the last: crossing rows of a chunk's grains
   std::vector<std::int64_t> groupEnd_;
+  std::vector<std::uint8_t> quiet_;
 
   // Of use during a build alone; kept because asking for memory anew costs more than the search.
   CellGrid grid_;

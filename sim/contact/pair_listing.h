@@ -22,10 +22,10 @@ struct PairListing {
 
   std::int64_t grains = 0;  ///< of this listing; the phantoms are grains `grains` and `grains` + 1
   std::int64_t entries = 0; ///< pairs with padding
-  std::vector<Pair> pairs;
+  AlignedVector<Pair> pairs;
   ImageCodes codes;
-  std::vector<std::uint8_t> shiftOf; ///< image code of a pair; empty without periodic directions
-  std::vector<std::int32_t> slots;   ///< slotCount per grain
+  AlignedVector<std::uint8_t> shiftOf; ///< image code of a pair; empty without periodic directions
+  AlignedVector<std::int32_t> slots;   ///< slotCount per grain
   std::vector<Extra> extras;
   std::vector<std::int32_t> groupExtras; ///< first of extras of each group of grains; one more at the end
   AlignedVector<double> history;

@@ -12,8 +12,8 @@ constexpr std::int64_t grainsPerPiece = 4096;
 
 /// Moves values through memory that is there already: asking the system for as much anew takes longer.
 /// `extra` values at the end keep their meaning.
-template <class T>
-void permute(std::vector<T>& values, const std::vector<std::int32_t>& order, Parallel& parallel,
+template <class T, class Allocator>
+void permute(std::vector<T, Allocator>& values, const std::vector<std::int32_t>& order, Parallel& parallel,
              AlignedVector<Quad>& scratch, std::size_t extra = 0, std::size_t stride = 1) {
   const std::size_t count = order.size() * stride,
                     quads = (count * sizeof(T) + sizeof(Quad) - 1) / sizeof(Quad);
@@ -40,8 +40,8 @@ void permute(std::vector<T>& values, const std::vector<std::int32_t>& order, Par
 }
 
 /// The same for how far grains may move; positions at listing time are about to be written anew.
-void permuteAllowances(std::vector<Quad>& listed, const std::vector<std::int32_t>& order, Parallel& parallel,
-                       AlignedVector<Quad>& scratch) {
+void permuteAllowances(AlignedVector<Quad>& listed, const std::vector<std::int32_t>& order,
+                       Parallel& parallel, AlignedVector<Quad>& scratch) {
   const std::size_t quads = order.size() / 4 + 1;
   if (scratch.size() < quads) scratch.resize(quads);
   double* const moved = &scratch[0].x;
@@ -81,7 +81,7 @@ void GrainStore::placePhantoms() {
   }
 }
 
-void GrainStore::setRecords(std::vector<Quad> records) {
+void GrainStore::setRecords(AlignedVector<Quad> records) {
   records_ = std::move(records);
   placePhantoms();
 }

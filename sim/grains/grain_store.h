@@ -49,7 +49,7 @@ public:
   QuadColumn place;         ///< position [m], radius [m]
   QuadColumn motion;        ///< velocity [m/s], 1/mass [1/kg]
   QuadColumn roll;          ///< radius times spin [m/s], 1/radius [1/m]; when turning
-  std::vector<Quad> listed; ///< position when the list was built, and how far the grain may move from it [m]
+  AlignedVector<Quad> listed; ///< position when the list was built, and how far the grain may move from it [m]
   std::vector<std::int64_t> id;
   std::vector<std::int16_t> species;
   std::vector<std::uint8_t> material; ///< two more at the end, for the phantoms
@@ -66,10 +66,10 @@ public:
 
   int quadsPerRecord() const { return turning ? 3 : 2; }
   /// All records, and behind them two phantoms far apart, which pad lists of pairs and touch nobody.
-  std::vector<Quad>& records() { return records_; }
-  const std::vector<Quad>& records() const { return records_; }
+  AlignedVector<Quad>& records() { return records_; }
+  const AlignedVector<Quad>& records() const { return records_; }
   /// Takes records as a checkpoint kept them.
-  void setRecords(std::vector<Quad> records);
+  void setRecords(AlignedVector<Quad> records);
 
   /// Keeps the grains listed in `order` (storage indices), in that order.
   /// Of `listed`, only w goes with a grain. `scratch` is memory to work in, made larger if need be; what it
@@ -81,7 +81,7 @@ public:
 private:
   void placePhantoms();
 
-  std::vector<Quad> records_;
+  AlignedVector<Quad> records_;
 };
 
 } // namespace sandglass

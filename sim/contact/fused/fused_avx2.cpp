@@ -28,8 +28,6 @@ struct Width256 {
   }
   SANDGLASS_LOOP static V read(const double* from) { return _mm256_loadu_pd(from); }
   SANDGLASS_LOOP static void write(double* to, V value) { _mm256_storeu_pd(to, value); }
-  SANDGLASS_LOOP static V recall(const double* from) { return read(from); }
-  SANDGLASS_LOOP static void keep(double* to, V value) { write(to, value); }
   template <int quads> SANDGLASS_LOOP static void clear(double* out) {
     for (int k = 0; k < lanes * quad * quads; k += lanes)
       write(out + k, _mm256_setzero_pd());

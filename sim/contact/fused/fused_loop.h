@@ -20,8 +20,9 @@ template <class Real> struct Staged {
 };
 
 /// Where the histories of pair p begin: three numbers, `lane` places apart.
-SANDGLASS_LOOP double* springOf(const ParticleView& v, std::int64_t p) {
-  return v.history + p / ParticleView::lane * 3 * ParticleView::lane + p % ParticleView::lane;
+template <class Real> SANDGLASS_LOOP Real* springOf(const ParticleView& v, std::int64_t p) {
+  return reinterpret_cast<Real*>(v.history) + p / ParticleView::lane * 3 * ParticleView::lane +
+         p % ParticleView::lane;
 }
 
 /// Reach of pairs in double precision.
@@ -34,13 +35,15 @@ template <class A, class V> struct SumOfRadii {
   }
 };
 
-/// Pairs none of which touches: no force, no history.
+/// Pairs none of which touches: no force, no history. Zeros are written once, to spare the memory.
 template <class W, bool turning>
 void rest(const ParticleView& v, std::int64_t p, bool keepHistory, double* out) {
   const auto zero = W::Arithmetic::template all<typename W::V>(0.0);
-  if (turning && !keepHistory)
+  if (turning && !keepHistory && !v.quiet[p / W::lanes]) {
     for (int k = 0; k < 3; ++k)
-      W::keep(springOf(v, p) + ParticleView::lane * k, zero);
+      W::write(springOf<typename W::Real>(v, p) + ParticleView::lane * k, zero);
+    v.quiet[p / W::lanes] = 1;
+  }
   W::template clear<turning ? 2 : 1>(out);
 }
 
@@ -126,16 +129,17 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       const Vector3<V> force = times(normal.force, n);
       W::template store<1>(out + stride * c, force, force);
     } else {
-      double* history = springOf(v, p);
+      Real* history = springOf<Real>(v, p);
       constexpr int lane = ParticleView::lane;
-      Vector3<V> s{W::recall(history), W::recall(history + lane), W::recall(history + 2 * lane)};
+      Vector3<V> s{W::read(history), W::read(history + lane), W::read(history + 2 * lane)};
       const Vector3<V> slip{W::read(b.slipX + c), W::read(b.slipY + c), W::read(b.slipZ + c)};
       const Vector3<V> ft =
           springForce<A, project, dashpot>(spring, n, slip, overlap, normal, mass, static_cast<Real>(dt), s);
       if (!keepHistory) {
-        W::keep(history, s.x);
-        W::keep(history + lane, s.y);
-        W::keep(history + 2 * lane, s.z);
+        v.quiet[p / W::lanes] = 0;
+        W::write(history, s.x);
+        W::write(history + lane, s.y);
+        W::write(history + 2 * lane, s.z);
       }
       V arm = one;
       if (!radiusArm) arm = W::read(b.arm + c);

@@ -100,14 +100,6 @@ struct Width256 {
 
   SANDGLASS_LOOP static V read(const float* from) { return _mm256_loadu_ps(from); }
   SANDGLASS_LOOP static void write(float* to, V value) { _mm256_storeu_ps(to, value); }
-  SANDGLASS_LOOP static V recall(const double* from) {
-    return _mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(from + 4)),
-                           _mm256_cvtpd_ps(_mm256_loadu_pd(from)));
-  }
-  SANDGLASS_LOOP static void keep(double* to, V value) {
-    _mm256_storeu_pd(to, _mm256_cvtps_pd(_mm256_castps256_ps128(value)));
-    _mm256_storeu_pd(to + 4, _mm256_cvtps_pd(_mm256_extractf128_ps(value, 1)));
-  }
   template <int quads> SANDGLASS_LOOP static void clear(double* out) {
     for (int k = 0; k < lanes * quad * quads; k += 4)
       _mm256_storeu_pd(out + k, _mm256_setzero_pd());

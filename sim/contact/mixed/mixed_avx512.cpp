@@ -130,15 +130,6 @@ template <class A> struct Width512 {
 
   SANDGLASS_LOOP static V read(const float* from) { return _mm512_loadu_ps(from); }
   SANDGLASS_LOOP static void write(float* to, V value) { _mm512_storeu_ps(to, value); }
-  SANDGLASS_LOOP static V recall(const double* from) {
-    const __m256 low = _mm512_cvtpd_ps(_mm512_loadu_pd(from)),
-                 high = _mm512_cvtpd_ps(_mm512_loadu_pd(from + 8));
-    return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
-  }
-  SANDGLASS_LOOP static void keep(double* to, V value) {
-    _mm512_storeu_pd(to, _mm512_cvtps_pd(_mm512_castps512_ps256(value)));
-    _mm512_storeu_pd(to + 8, _mm512_cvtps_pd(_mm512_extractf32x8_ps(value, 1)));
-  }
   template <int quads> SANDGLASS_LOOP static void clear(double* out) {
     for (int k = 0; k < lanes * quad * quads; k += 8)
       _mm512_storeu_pd(out + k, _mm512_setzero_pd());

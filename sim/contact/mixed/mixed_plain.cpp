@@ -46,8 +46,6 @@ struct Width1 {
   }
   static V read(const float* from) { return *from; }
   static void write(float* to, V value) { *to = value; }
-  static V recall(const double* from) { return static_cast<float>(*from); }
-  static void keep(double* to, V value) { *to = value; }
   template <int quads> static void clear(double* out) { store<quads>(out, {}, {}); }
   template <int quads> static void store(double* out, const Vector3<V>& f, const Vector3<V>& t) {
     auto* to = reinterpret_cast<float*>(out);

@@ -1,6 +1,6 @@
 #pragma once
-// Grains as mixed precision sees them. Geometry, relative motion, laws and forces of pairs are single
-// precision; sums, positions, velocities and histories are kept in double.
+// Grains as mixed precision sees them. Geometry, relative motion, laws, forces and histories of pairs are
+// single precision; sums, positions and velocities are kept in double.
 //
 // A record has four fixed-point numbers (position and radius) and eight floats (velocity and 1/mass, radius
 // times spin and 1/radius). A unit is 2^-30 of the largest diameter, that rounded up to a power of two of a

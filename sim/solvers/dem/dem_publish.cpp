@@ -244,7 +244,7 @@ Solver::State DemSolver::save() {
   put(s, "image", grains_.image);
   for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
     put(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
-  put(s, "pairs.history", list_.historyArray());
+  put(s, "pairs.history", list_.histories());
   put(s, "pairs.live", list_.liveArray());
   if (across_.used()) put(s, "across.history", across_.historyArray());
   put(s, "groups.moved", loop_.moved());
@@ -290,7 +290,7 @@ void DemSolver::load(const State& s) {
   for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
     get(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
 
-  std::vector<Quad> records;
+  AlignedVector<Quad> records;
   get(s, "records", records);
   if (records.size() != (grains_.size() + 2) * grains_.quadsPerRecord())
     throw InputError(
@@ -310,14 +310,18 @@ void DemSolver::load(const State& s) {
   if (fields_.any()) fields_.list(grains_, list_, parallel_);
   grains_.setRecords(std::move(records));
   loop_.bind();
+  const auto misfit = [](const char* name) {
+    throw InputError(fmt::format(
+        "the checkpoint's '{}' does not fit the scene; it belongs to another scene or version", name));
+  };
   const auto restore = [&](const char* name, auto& array) {
     const std::size_t expected = array.size();
     get(s, name, array);
-    if (array.size() != expected)
-      throw InputError(fmt::format(
-          "the checkpoint's '{}' does not fit the scene; it belongs to another scene or version", name));
+    if (array.size() != expected) misfit(name);
   };
-  restore("pairs.history", list_.historyArray());
+  std::vector<double> histories;
+  get(s, "pairs.history", histories);
+  if (!list_.setHistories(histories)) misfit("pairs.history");
   restore("pairs.live", list_.liveArray());
   if (across_.used()) restore("across.history", across_.historyArray());
   restore("groups.moved", loop_.moved());

@@ -46,8 +46,8 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
                      const std::vector<std::shared_ptr<const Law>>& added)
     : scene_(scene), wallLoads_(options.wallLoads), fields_(scene), laws_(stackWith(scene, added, fields_)),
       parallel_(options.threads),
-      list_(scene.domain, laws_.historySize(), laws_.outputStride(), laws_.hasEvents()), pairForces_(laws_),
-      wallContacts_(laws_), across_(laws_, scene.sector()),
+      list_(scene.domain, laws_.historySize(), laws_.outputStride(), laws_.hasEvents(), laws_.mixed()),
+      pairForces_(laws_), wallContacts_(laws_), across_(laws_, scene.sector()),
       loop_(grains_, list_, pairForces_, wallContacts_, across_, fields_, parallel_), frozen_(scene),
       gravity_(scene.gravity), lives_(scene) {
   if (across_.used() && laws_.hasEvents())

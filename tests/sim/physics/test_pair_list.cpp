@@ -459,7 +459,7 @@ TEST_CASE("the list is the same for any number of threads and any width of instr
         for (std::size_t i = 0; i < store.size(); ++i)
           store.place[i].x += 0.003 * static_cast<double>(store.id[i] % 17 - 8) / 8.0;
         list.build(store, 0.001, parallel);
-        Result r{store.id, {}, {list.historyArray().begin(), list.historyArray().end()}};
+        Result r{store.id, {}, list.histories()};
         for (const auto& pair : list.pairs())
           r.numbers.insert(r.numbers.end(), {pair.a, pair.b});
         r.numbers.insert(r.numbers.end(), list.shiftOf().begin(), list.shiftOf().end());
