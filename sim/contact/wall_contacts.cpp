@@ -8,6 +8,9 @@ namespace sandglass {
 
 namespace {
 
+/// So few that all threads have pieces, each near the grains that it moves.
+constexpr std::int64_t candidatesPerPiece = 64;
+
 /// Rows of what stands in runs of equal ids, found by id: a grain's candidates before it was listed anew.
 /// Open addressing, at most half full.
 class RowsById {
@@ -195,7 +198,7 @@ void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>&
   std::mutex merge;
   const int size = laws_.historySize();
   parallel.forRange(
-      static_cast<std::int64_t>(candidates_.size()), 256, [&](std::int64_t first, std::int64_t last) {
+      static_cast<std::int64_t>(candidates_.size()), candidatesPerPiece, [&](std::int64_t first, std::int64_t last) {
         ContactBlock block;
         block.dt = dt;
         block.oneType = false;

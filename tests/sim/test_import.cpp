@@ -271,6 +271,10 @@ TEST_CASE("Columns by the user's map, saved and read again", "[import]") {
   CHECK_FALSE(frame->has("junk"));
   CHECK_THROWS_WITH(parseImportSettings("[column]\nx = \"a\"\n[time]\nstep = \"3 kg\"\n", "bad.toml"),
                     Contains("column is unknown") && Contains("time.step"));
+  CHECK_THROWS_WITH(parseImportSettings("[grains]\nradius_of = { \"a\\tb\" = 1 }\n", "bad.toml"),
+                    Contains("control character 0x09 after 'a'"));
+  CHECK_THROWS_WITH(parseImportSettings("[columns]\n\"x\\u0001\" = \"a\"\n", "bad.toml"),
+                    Contains("control character 0x01 after 'x'"));
   ImportSettings absent;
   absent.columns["radius"] = "Rx";
   CHECK_THROWS_WITH(opened(dump, absent)->load(0), Contains("no column 'Rx'") && Contains("radius, proc"));

@@ -85,10 +85,19 @@ private:
     return value;
   }
 
+  /// Names stand in sentences and in files that are written.
+  bool printable(const std::string& table, const std::string& name) {
+    const auto odd =
+        std::find_if(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+    if (odd == name.end()) return true;
+    fault(fmt::format("{} has a name with the control character 0x{:02x} after '{}'; names are without",
+                      table, static_cast<unsigned char>(*odd), std::string(name.begin(), odd)));
+    return false;
+  }
   void flatten(const toml::table& t, const std::string& prefix) {
     for (const auto& [key, value] : t) {
       const std::string name = prefix + std::string(key.str());
-      if (name == "ignore") continue;
+      if (name == "ignore" || !printable("columns", name)) continue;
       if (value.is_table())
         flatten(*value.as_table(), name + ".");
       else if (const auto text = value.value_exact<std::string>())
@@ -174,6 +183,7 @@ private:
       else
         for (const auto& [key, value] : *of->as_table()) {
           const std::string species(key.str());
+          if (!printable("grains.radius_of", species)) continue;
           if (const auto radius = positive(*of->as_table(), "grains.radius_of", species.c_str(), "m"))
             settings_.radiusOf[species] = *radius;
         }
