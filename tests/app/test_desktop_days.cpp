@@ -129,14 +129,19 @@ public:
   /// Types a name into the file dialog that the next action opens.
   void nameNextFile(const std::filesystem::path& file) {
     ++actions_;
-    QTimer::singleShot(300, [file] {
+    auto* look = new QTimer(&window()); // again and again: a busy machine takes its time to show a dialog
+    QObject::connect(look, &QTimer::timeout, look, [file, look] {
       for (auto* widget : QApplication::topLevelWidgets())
         if (auto* dialog = qobject_cast<QFileDialog*>(widget); dialog && dialog->isVisible()) {
+          look->deleteLater();
+          look->stop();
           auto* line = dialog->findChild<QLineEdit*>("fileNameEdit");
           QTest::keyClicks(line, QString::fromStdString(file.string()));
           QTest::keyClick(line, Qt::Key_Return);
+          return;
         }
     });
+    look->start(300);
   }
   /// A grain in the middle of the picture's lower half.
   void pick() {
@@ -146,7 +151,7 @@ public:
       QTest::mouseClick(&picture, Qt::LeftButton, {},
                         QPoint(picture.width() * 40 / 100, picture.height() * row / 10));
       const auto* inspector = desktop_.child<desktop::InspectorPanel>("inspector");
-      if (waitFor([&] { return inspector->grain() >= 0; }, 1)) return;
+      if (waitFor([&] { return inspector->grain() >= 0; }, 3)) return;
     }
     FAIL("no grain was hit");
   }
