@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 
 namespace sandglass {
 
@@ -37,32 +36,6 @@ std::int64_t chunksOf(std::int64_t grains) {
   while (grains >= fewest && fits(2 * chunks))
     chunks *= 2;
   return chunks;
-}
-
-/// Room for n values that will all be written: old values are not copied into larger memory.
-template <class Vector> void makeRoom(Vector& values, std::int64_t n, std::int64_t spare = 0) {
-  if (values.capacity() < static_cast<std::size_t>(n + spare)) {
-    Vector().swap(values);
-    values.reserve(static_cast<std::size_t>(n + n / 16 + spare));
-  }
-  values.resize(static_cast<std::size_t>(n));
-}
-
-bool byGrain(const PairListing::Extra& s, const PairListing::Extra& t) {
-  return s.grain < t.grain;
-}
-
-/// Parts, ordered by grain, one behind the other, and where each group of grains begins.
-void gather(const std::vector<std::vector<PairListing::Extra>>& parts, std::int64_t groups,
-            std::vector<PairListing::Extra>& all, std::vector<std::int32_t>& groupFirst) {
-  all.clear();
-  for (const auto& part : parts)
-    all.insert(all.end(), part.begin(), part.end());
-  groupFirst.assign(static_cast<std::size_t>(groups) + 1, 0);
-  for (const PairListing::Extra& e : all)
-    ++groupFirst[e.grain / PairListing::group + 1];
-  for (std::size_t g = 1; g < groupFirst.size(); ++g)
-    groupFirst[g] += groupFirst[g - 1];
 }
 
 } // namespace
@@ -263,107 +236,6 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
       }
     }
   });
-}
-
-/// Slots in the order of pairs: what a chunk's grains share with earlier chunks, rows of the chunk, and their
-/// pairs with later chunks.
-void PairList::link(Parallel& parallel) {
-  const std::int64_t n = now_.grains;
-  const auto empty = static_cast<std::int32_t>(now_.entries << 1);
-  makeRoom(now_.slots, n * slotCount);
-  filled_.resize(static_cast<std::size_t>(n));
-  const int chunkCount = chunks();
-  std::vector<std::vector<Extra>> extras(chunkCount);
-  std::vector<std::uint32_t> touches(chunkCount); ///< which chunks the crossing rows of a chunk lead to
-  if (chunkCount > 1)
-    parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t c = first; c < last; ++c)
-        for (std::int64_t p = chunkCrossing_[c].begin; p < chunkCrossing_[c].end; ++p) {
-          const std::int64_t j = std::max(now_.pairs[p].a, now_.pairs[p].b);
-          std::int64_t d = c + 1;
-          while (j >= chunkGrains_[d].end)
-            ++d;
-          touches[c] |= 1u << d;
-        }
-    });
-  parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t c = first; c < last; ++c) {
-      const auto [begin, end] = chunkGrains_[c];
-      std::fill(now_.slots.begin() + begin * slotCount, now_.slots.begin() + end * slotCount, empty);
-      std::fill(filled_.begin() + begin, filled_.begin() + end, std::uint8_t{0});
-      const auto enter = [&, slots = now_.slots.data(), filled = filled_.data()](std::int32_t grain,
-                                                                                 std::int64_t entry) {
-        if (filled[grain] < slotCount)
-          slots[static_cast<std::int64_t>(grain) * slotCount + filled[grain]++] =
-              static_cast<std::int32_t>(entry);
-        else
-          extras[c].push_back({grain, static_cast<std::int32_t>(entry)});
-      };
-      const Pair* pairs = now_.pairs.data();
-      for (std::int64_t d = 0; d < c; ++d) {
-        if (!(touches[d] >> c & 1u)) continue;
-        for (std::int64_t p = chunkCrossing_[d].begin; p < chunkCrossing_[d].end; ++p) {
-          const bool second = pairs[p].b > pairs[p].a;
-          const std::int32_t j = second ? pairs[p].b : pairs[p].a;
-          if (j >= begin && j < end) enter(j, p << 1 | (second ? 1 : 0));
-        }
-      }
-      for (std::int64_t p = chunkPairs_[c].begin; p < chunkPairs_[c].end && pairs[p].a < n; ++p) {
-        enter(pairs[p].a, p << 1);
-        enter(pairs[p].b, p << 1 | 1);
-      }
-      for (std::int64_t p = chunkCrossing_[c].begin; p < chunkCrossing_[c].end; ++p) {
-        const bool second = pairs[p].b < pairs[p].a;
-        enter(second ? pairs[p].b : pairs[p].a, p << 1 | (second ? 1 : 0));
-      }
-      std::stable_sort(extras[c].begin(), extras[c].end(), byGrain);
-    }
-  });
-  gather(extras, now_.groups(), now_.extras, now_.groupExtras);
-}
-
-/// Length of the ring, and where in it the outputs of each grain stand.
-void PairList::findPlaces(Parallel& parallel) {
-  const int chunkCount = chunks();
-  const Pair* pairs = now_.pairs.data();
-  const std::int64_t n = now_.grains;
-  std::vector<std::int64_t> windows(chunkCount, 0);
-  parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t c = first; c < last; ++c)
-      for (std::int64_t p = chunkPairs_[c].begin; p < chunkPairs_[c].end && pairs[p].a < n; ++p)
-        windows[c] = std::max(windows[c], groupEnd_[std::max(pairs[p].a, pairs[p].b) / group] - p);
-  });
-  constexpr std::int64_t block = 64; // may be written as a whole before its first pair is needed
-  window_ = static_cast<std::int64_t>(
-      std::bit_ceil(static_cast<std::uint64_t>(*std::max_element(windows.begin(), windows.end()) + block)));
-  const std::int32_t empty = ringEntry(window_, true);
-  makeRoom(places_, n * slotCount);
-  std::vector<std::vector<Extra>> lent(chunkCount);
-  parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t c = first; c < last; ++c) {
-      const auto [begin, end] = chunkGrains_[c];
-      const std::int64_t ringBegin = chunkPairs_[c].begin, mask = window_ - 1;
-      std::int64_t atLent = 0;
-      for (std::int64_t i = begin; i < end; ++i) {
-        const std::int32_t* slots = now_.slots.data() + i * slotCount;
-        std::int32_t* places = places_.data() + i * slotCount;
-        if (i % group == 0) atLent = window_ + 1;
-        for (int k = 0; k < slotCount; ++k) {
-          const std::int64_t pair = slots[k] >> 1;
-          const bool first = !(slots[k] & 1);
-          if (pair == now_.entries) {
-            places[k] = empty;
-          } else if (pair >= ringBegin) {
-            places[k] = ringEntry((pair - ringBegin) & mask, first);
-          } else {
-            places[k] = ringEntry(atLent++, first);
-            lent[c].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(pair)});
-          }
-        }
-      }
-    }
-  });
-  gather(lent, now_.groups(), lent_, groupLent_);
 }
 
 std::vector<double> PairList::histories() const {

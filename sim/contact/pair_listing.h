@@ -11,6 +11,15 @@
 
 namespace sandglass {
 
+/// Room for n values that will all be written: old values are not copied into larger memory.
+template <class Vector> void makeRoom(Vector& values, std::int64_t n, std::int64_t spare = 0) {
+  if (values.capacity() < static_cast<std::size_t>(n + spare)) {
+    Vector().swap(values);
+    values.reserve(static_cast<std::size_t>(n + n / 16 + spare));
+  }
+  values.resize(static_cast<std::size_t>(n));
+}
+
 struct PairListing {
   static constexpr int lane = ParticleView::lane, group = 32, slotCount = 8;
   struct Pair {
