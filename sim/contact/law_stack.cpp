@@ -231,11 +231,13 @@ FusedLaws LawStack::fused(int material) const {
   laws.type = typeOf(material, material);
   for (const Entry& entry : entries_)
     entry.law->fuse(laws);
-  const bool alone = entries_.size() == 1 && entries_[0].role == LawRole::normal;
-  const bool two =
-      entries_.size() == 2 && entries_[0].role == LawRole::normal && entries_[1].role == LawRole::tangential;
-  if (alone) laws.tangential = FusedLaws::Tangential::none;
-  if (!alone && !two) return {};
+  constexpr LawRole roles[] = {LawRole::normal, LawRole::tangential, LawRole::rolling};
+  const bool inTurn = entries_.size() <= 3 &&
+                      std::equal(entries_.begin(), entries_.end(), roles,
+                                 [](const Entry& entry, LawRole role) { return entry.role == role; });
+  if (!inTurn) return {};
+  if (entries_.size() < 2) laws.tangential = FusedLaws::Tangential::none;
+  if (entries_.size() < 3) laws.rolling = FusedLaws::Rolling::none;
   return laws;
 }
 

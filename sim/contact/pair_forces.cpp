@@ -58,13 +58,17 @@ void PairForces::pickLoop(int material) {
   fusedLoop_ = nullptr;
   const bool linear =
       fused_.normal == FusedLaws::Normal::linear || fused_.normal == FusedLaws::Normal::linearOfMass;
-  const bool possible = view_.oneMaterial && !view_.sumsOverlaps && (linear || view_.oneRadius > 0.0);
+  const bool possible = view_.oneMaterial && !view_.sumsOverlaps;
   if (laws_.mixed()) {
-    fusedLoop_ = possible ? mixedLoop(fused_, laws_.width(), laws_.fastArithmetic()) : nullptr;
+    fusedLoop_ = possible && (linear || view_.oneRadius > 0.0)
+                     ? mixedLoop(fused_, laws_.width(), laws_.fastArithmetic())
+                     : nullptr;
     if (!fusedLoop_ && grains_->size() > 0) throw InputError(LawStack::mixedRule);
     return;
   }
   if (!possible) return;
+  if (fused_.normal == FusedLaws::Normal::hertz && view_.oneRadius == 0.0)
+    fused_.normal = FusedLaws::Normal::hertzOfSize;
   if (laws_.width() == KernelWidth::avx512) fusedLoop_ = fusedLoopAvx512(fused_, laws_.fastArithmetic());
   if (laws_.width() == KernelWidth::avx2) fusedLoop_ = fusedLoopAvx2(fused_);
 }

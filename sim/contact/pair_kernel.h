@@ -56,6 +56,7 @@ struct ParticleView {
 template <class Real> struct PairColumnsOf {
   alignas(64) Real sum[64], arm[64]; ///< sum of radii; contact arm over radius, the same for both grains
   alignas(64) Real inverseMass[64], rollX[64], rollY[64], rollZ[64];
+  alignas(64) Real inverseRadii[64]; ///< sum of 1/radius, where records have it
 };
 using PairColumns = PairColumnsOf<double>;
 

@@ -27,6 +27,7 @@ inline void load(const ParticleView& v, std::int64_t first, int count, ContactBl
       _mm256_store_pd(p.rollX + c, moves.roll.x);
       _mm256_store_pd(p.rollY + c, moves.roll.y);
       _mm256_store_pd(p.rollZ + c, moves.roll.z);
+      _mm256_store_pd(p.inverseRadii + c, moves.roll.w);
     }
     if constexpr (spin) {
       _mm256_store_pd(b.wx + c, moves.spin.x);

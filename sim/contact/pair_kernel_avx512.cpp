@@ -27,6 +27,7 @@ inline void geometry(const ParticleView& v, std::int64_t first, int count, Conta
       roll = {moves.roll.x, moves.roll.y, moves.roll.z};
       if (!radiusArm) arm = distance / x.w;
       _mm512_store_pd(p.arm + c, arm);
+      _mm512_store_pd(p.inverseRadii + c, moves.roll.w);
     }
     const ContactMotion<__m512d> contact = contactMotion<ExactAvx512, turning>(n, {y.x, y.y, y.z}, roll, arm);
     _mm512_store_pd(b.nx + c, n.x);
@@ -137,9 +138,9 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
 }
 
 /// As move(), velocity and roll of a record in one register.
-void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
-              const double* gravity, double speedLimit, Speeds& speeds) {
-  if (v.quads != 3 || v.outputQuads != 2) return move(v, first, count, s, dt, gravity, speedLimit, speeds);
+template <bool couples>
+void moveTurning(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+                 const double* gravity, double speedLimit, Speeds& speeds) {
   const __m512d share = _mm512_set_pd(0, 2.5, 2.5, 2.5, 0, 1, 1, 1);
   const __m512d pull = _mm512_set_pd(0, 0, 0, 0, 0, dt * gravity[2], dt * gravity[1], dt * gravity[0]);
   const __m512d size = _mm512_castsi512_pd(_mm512_set1_epi64(static_cast<std::int64_t>(~(1ull << 63))));
@@ -150,9 +151,15 @@ void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupS
   double* r = v.records + first * 12;
   for (int i = 0; i < count; ++i, r += 12) {
     const __m512d kick = time * _mm512_set1_pd(r[7]) * share;
-    __m512d change = kick * _mm512_load_pd(s.at[i]);
+    const __m512d record = _mm512_loadu_pd(r + 4);
+    __m512d force = _mm512_load_pd(s.at[i]); // and torque
+    if constexpr (couples) {
+      const __m512d couple = _mm512_broadcast_f64x4(_mm256_load_pd(s.at[i] + 8));
+      force = _mm512_mask_add_pd(force, 0x70, force, couple * _mm512_permutex_pd(record, 0xff));
+    }
+    __m512d change = kick * force;
     change = _mm512_mask_add_pd(change, 7, change, pull);
-    const __m512d motion = _mm512_loadu_pd(r + 4) + change;
+    const __m512d motion = record + change;
     _mm512_storeu_pd(r + 4, motion);
     const __m256d velocity = _mm512_castpd512_pd256(motion);
     _mm256_store_pd(r, _mm256_add_pd(_mm256_load_pd(r), _mm256_mul_pd(step, velocity)));
@@ -161,6 +168,12 @@ void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupS
     fine = _mm256_mask_cmp_pd_mask(fine, speed, limit, _CMP_LT_OQ);
   }
   tell(most, fine == 7, speeds);
+}
+
+void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+              const double* gravity, double speedLimit, Speeds& speeds) {
+  const auto how = v.quads != 3 ? move : v.outputQuads == 2 ? moveTurning<false> : moveTurning<true>;
+  how(v, first, count, s, dt, gravity, speedLimit, speeds);
 }
 
 } // namespace

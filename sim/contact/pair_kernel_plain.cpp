@@ -26,6 +26,7 @@ void fill(const ParticleView& v, std::int64_t first, int count, ContactBlock& b,
     p.rollX[c] = a[8] + z[8];
     p.rollY[c] = a[9] + z[9];
     p.rollZ[c] = a[10] + z[10];
+    p.inverseRadii[c] = a[11] + z[11];
     if (!v.readsSpin) continue;
     const double sign = v.ownTorque ? -1.0 : 1.0;
     b.wx[c] = a[8] * a[11] - sign * z[8] * z[11];

@@ -57,8 +57,12 @@ inline void fillExtras(const ParticleView& v, std::int64_t first, ContactBlock& 
         b.radiusB[c] = v.records[pairs[2 * c + 1] * stride + 3];
       }
   }
-  if (v.reads & LawColumns::effectiveRadius)
-    LANES(c) b.effectiveRadius[c] = b.radiusA[c] * b.radiusB[c] / p.sum[c];
+  if (v.reads & LawColumns::effectiveRadius) {
+    if (v.quads > 2)
+      LANES(c) b.effectiveRadius[c] = 1.0 / p.inverseRadii[c];
+    else
+      LANES(c) b.effectiveRadius[c] = 1.0 / (1.0 / b.radiusA[c] + 1.0 / b.radiusB[c]);
+  }
   if (v.reads & LawColumns::masses) {
     if (v.oneInverseMass > 0.0)
       LANES(c) b.inverseMassA[c] = b.inverseMassB[c] = v.oneInverseMass;

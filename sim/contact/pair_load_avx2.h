@@ -1,6 +1,7 @@
 #pragma once
 // Records of four pairs to columns, and columns to outputs, by whole loads and transposes.
 
+#include "sim/contact/laws/arithmetic.h"
 #include "sim/contact/pair_kernel.h"
 
 #include <immintrin.h>
@@ -20,7 +21,7 @@ inline Columns transpose(__m256d q0, __m256d q1, __m256d q2, __m256d q3) {
 }
 
 /// Four pairs: differences of places, with the sum of radii in w.
-template <bool turning> inline Columns placesOfFour(const ParticleView& v, std::int64_t first) {
+template <bool turning> SANDGLASS_LOOP Columns placesOfFour(const ParticleView& v, std::int64_t first) {
   constexpr std::int64_t stride = turning ? 12 : 8;
   const __m256d oneButLast = _mm256_set_pd(-1, 1, 1, 1); // sums in w, differences else
   const std::int32_t* pair = v.pairs + 2 * first;
@@ -34,28 +35,34 @@ template <bool turning> inline Columns placesOfFour(const ParticleView& v, std::
   return transpose(apart[0], apart[1], apart[2], apart[3]);
 }
 
-/// Differences of velocities with the sum of inverse masses, sums of surface speeds, differences of spins
-/// (sums where a law has its own torque).
+/// Differences of velocities with the sum of inverse masses, sums of surface speeds with that of inverse
+/// radii, differences of spins (sums where a law has its own torque) with the sum of 1/(m r^2).
 struct FourMotions {
   Columns motion, roll, spin;
 };
 
 template <bool turning, bool spin>
-inline FourMotions motionsOfFour(const ParticleView& v, std::int64_t first) {
+SANDGLASS_LOOP FourMotions motionsOfFour(const ParticleView& v, std::int64_t first) {
   constexpr std::int64_t stride = turning ? 12 : 8;
   const __m256d oneButLast = _mm256_set_pd(-1, 1, 1, 1);
   const std::int32_t* pair = v.pairs + 2 * first;
-  const __m256d sign = _mm256_set1_pd(v.ownTorque ? -1.0 : 1.0);
+  const double s = v.ownTorque ? -1.0 : 1.0;
+  const __m256d sign = _mm256_set_pd(-1, s, s, s);
   __m256d dv[4], u[4], w[4];
   for (int k = 0; k < 4; ++k) {
     const double *a = v.records + pair[2 * k] * stride, *z = v.records + pair[2 * k + 1] * stride;
-    dv[k] = _mm256_fnmadd_pd(_mm256_load_pd(z + 4), oneButLast, _mm256_load_pd(a + 4));
+    const __m256d va = _mm256_load_pd(a + 4), vz = _mm256_load_pd(z + 4);
+    dv[k] = _mm256_fnmadd_pd(vz, oneButLast, va);
     if constexpr (turning) {
       const __m256d ra = _mm256_load_pd(a + 8), rz = _mm256_load_pd(z + 8);
       u[k] = _mm256_add_pd(ra, rz);
-      if constexpr (spin)
-        w[k] = _mm256_sub_pd(_mm256_mul_pd(ra, _mm256_permute4x64_pd(ra, 0xff)),
-                             _mm256_mul_pd(_mm256_mul_pd(sign, rz), _mm256_permute4x64_pd(rz, 0xff)));
+      if constexpr (spin) {
+        const auto spinOf = [](__m256d roll, __m256d motion) {
+          const __m256d inverse = _mm256_permute4x64_pd(roll, 0xff);
+          return _mm256_mul_pd(roll, _mm256_blend_pd(inverse, _mm256_mul_pd(inverse, motion), 8));
+        };
+        w[k] = _mm256_sub_pd(spinOf(ra, va), _mm256_mul_pd(sign, spinOf(rz, vz)));
+      }
     }
   }
   FourMotions out;

@@ -2,6 +2,7 @@
 // Records of eight pairs to columns, and columns to outputs, by whole loads and transposes. For files that
 // are compiled for AVX-512.
 
+#include "sim/contact/laws/arithmetic.h"
 #include "sim/contact/pair_kernel.h"
 
 #include <immintrin.h>
@@ -30,7 +31,7 @@ inline Columns transpose(__m512d q02, __m512d q13, __m512d q46, __m512d q57) {
 constexpr int low[4] = {0, 1, 4, 5}, high[4] = {2, 3, 6, 7};
 
 /// Eight pairs: differences of places, with the sum of radii in w.
-template <bool turning> inline Columns placesOfEight(const ParticleView& v, std::int64_t first) {
+template <bool turning> SANDGLASS_LOOP Columns placesOfEight(const ParticleView& v, std::int64_t first) {
   constexpr std::int64_t stride = turning ? 12 : 8;
   const double* records = v.records;
   const __m512d oneButLast = _mm512_set_pd(-1, 1, 1, 1, -1, 1, 1, 1); // sums in w, differences else
@@ -53,28 +54,36 @@ template <bool turning> inline Columns placesOfEight(const ParticleView& v, std:
   return transpose(apart[0], apart[1], apart[2], apart[3]);
 }
 
-/// Differences of velocities with the sum of inverse masses, sums of surface speeds, differences of spins
-/// (sums where a law has its own torque).
+/// Differences of velocities with the sum of inverse masses, sums of surface speeds with that of inverse
+/// radii, differences of spins (sums where a law has its own torque) with the sum of 1/(m r^2).
 struct EightMotions {
   Columns motion, roll, spin;
 };
 
 template <bool turning, bool spin>
-inline EightMotions motionsOfEight(const ParticleView& v, std::int64_t first) {
+SANDGLASS_LOOP EightMotions motionsOfEight(const ParticleView& v, std::int64_t first) {
   constexpr std::int64_t stride = turning ? 12 : 8;
   const double* records = v.records;
   const __m512d oneButLast = _mm512_set_pd(-1, 1, 1, 1, -1, 1, 1, 1);
   const std::int32_t* pair = v.pairs + 2 * first;
-  const __m512d sign = _mm512_set1_pd(v.ownTorque ? -1.0 : 1.0);
+  const double s = v.ownTorque ? -1.0 : 1.0;
+  const __m512d sign = _mm512_set_pd(-1, s, s, s, -1, s, s, s);
   __m512d dv[4], u[4], w[4];
   for (int k = 0; k < 4; ++k) {
     const double *a0 = records + pair[2 * low[k]] * stride, *z0 = records + pair[2 * low[k] + 1] * stride;
     const double *a1 = records + pair[2 * high[k]] * stride, *z1 = records + pair[2 * high[k] + 1] * stride;
-    dv[k] = _mm512_fnmadd_pd(both(z0 + 4, z1 + 4), oneButLast, both(a0 + 4, a1 + 4));
+    const __m512d va = both(a0 + 4, a1 + 4), vz = both(z0 + 4, z1 + 4);
+    dv[k] = _mm512_fnmadd_pd(vz, oneButLast, va);
     if constexpr (turning) {
       const __m512d ra = both(a0 + 8, a1 + 8), rz = both(z0 + 8, z1 + 8);
       u[k] = ra + rz;
-      if constexpr (spin) w[k] = ra * _mm512_permutex_pd(ra, 0xff) - sign * rz * _mm512_permutex_pd(rz, 0xff);
+      if constexpr (spin) {
+        const auto spinOf = [](__m512d roll, __m512d motion) {
+          const __m512d inverse = _mm512_permutex_pd(roll, 0xff);
+          return roll * _mm512_mask_mul_pd(inverse, 0x88, inverse, motion);
+        };
+        w[k] = spinOf(ra, va) - sign * spinOf(rz, vz);
+      }
     }
   }
   EightMotions out;
@@ -103,7 +112,9 @@ inline void scatter(__m512d x, __m512d y, __m512d z, double* out, std::int64_t s
   put(highXy, highZ, 1);
 }
 
-/// Columns of two vectors to pairs of quads that stand side by side, each pair of quads in one store.
+/// Columns of two vectors to pairs of quads that stand side by side, each pair of quads in one store, and
+/// `stride` doubles from one pair to the next.
+template <int stride>
 inline void scatterTwo(__m512d x, __m512d y, __m512d z, __m512d tx, __m512d ty, __m512d tz, double* out) {
   const __m512d zero = _mm512_setzero_pd();
   const auto put = [&](__m512d xy, __m512d z0, __m512d txy, __m512d tz0, int at) {
@@ -112,10 +123,10 @@ inline void scatterTwo(__m512d x, __m512d y, __m512d z, __m512d tx, __m512d ty, 
     const __m512d c = _mm512_shuffle_f64x2(xy, z0, 0xee), d = _mm512_shuffle_f64x2(txy, tz0, 0xee);
     const __m512d first = _mm512_shuffle_f64x2(a, b, 0x88), second = _mm512_shuffle_f64x2(a, b, 0xdd);
     const __m512d third = _mm512_shuffle_f64x2(c, d, 0x88), fourth = _mm512_shuffle_f64x2(c, d, 0xdd);
-    _mm512_storeu_pd(out + at * 8, first);
-    _mm512_storeu_pd(out + (at + 2) * 8, second);
-    _mm512_storeu_pd(out + (at + 4) * 8, third);
-    _mm512_storeu_pd(out + (at + 6) * 8, fourth);
+    _mm512_storeu_pd(out + at * stride, first);
+    _mm512_storeu_pd(out + (at + 2) * stride, second);
+    _mm512_storeu_pd(out + (at + 4) * stride, third);
+    _mm512_storeu_pd(out + (at + 6) * stride, fourth);
   };
   put(_mm512_unpacklo_pd(x, y), _mm512_unpacklo_pd(z, zero), _mm512_unpacklo_pd(tx, ty),
       _mm512_unpacklo_pd(tz, zero), 0);

@@ -18,13 +18,21 @@ struct Width256 {
     reach.radii = at.w;
     return {at.x, at.y, at.z};
   }
-  template <bool turning>
-  SANDGLASS_LOOP static Vector3<V> motions(const ParticleView& v, std::int64_t p, V& inverseMass,
-                                           Vector3<V>& roll) {
-    const auto m = motionsOfFour<turning, false>(v, p);
-    inverseMass = m.motion.w;
-    if constexpr (turning) roll = {m.roll.x, m.roll.y, m.roll.z};
-    return {m.motion.x, m.motion.y, m.motion.z};
+  template <bool turning, bool spin>
+  SANDGLASS_LOOP static Motions<V> motions(const ParticleView& v, std::int64_t p) {
+    const auto m = motionsOfFour<turning, spin>(v, p);
+    Motions<V> out;
+    out.velocity = {m.motion.x, m.motion.y, m.motion.z};
+    out.inverseMass = m.motion.w;
+    if constexpr (turning) {
+      out.roll = {m.roll.x, m.roll.y, m.roll.z};
+      out.inverseRadii = m.roll.w;
+    }
+    if constexpr (spin) {
+      out.spin = {m.spin.x, m.spin.y, m.spin.z};
+      out.rollingInverse = m.spin.w;
+    }
+    return out;
   }
   SANDGLASS_LOOP static V read(const double* from) { return _mm256_loadu_pd(from); }
   SANDGLASS_LOOP static void write(double* to, V value) { _mm256_storeu_pd(to, value); }
@@ -37,12 +45,15 @@ struct Width256 {
     scatter(f.x, f.y, f.z, out, 4 * quads);
     if constexpr (quads > 1) scatter(t.x, t.y, t.z, out + 4, 4 * quads);
   }
+  SANDGLASS_LOOP static void storeCouple(double* out, const Vector3<V>& m) {
+    scatter(m.x, m.y, m.z, out + 8, 12);
+  }
 };
 
 } // namespace
 
 FusedLoop fusedLoopAvx2(const FusedLaws& laws) {
-  return pickFusedLoop<Width256>(laws);
+  return pickDoubleLoop<Width256>(laws);
 }
 
 } // namespace sandglass

@@ -18,13 +18,21 @@ template <class A> struct Width512 {
     reach.radii = at.w;
     return {at.x, at.y, at.z};
   }
-  template <bool turning>
-  SANDGLASS_LOOP static Vector3<V> motions(const ParticleView& v, std::int64_t p, V& inverseMass,
-                                           Vector3<V>& roll) {
-    const auto m = motionsOfEight<turning, false>(v, p);
-    inverseMass = m.motion.w;
-    if constexpr (turning) roll = {m.roll.x, m.roll.y, m.roll.z};
-    return {m.motion.x, m.motion.y, m.motion.z};
+  template <bool turning, bool spin>
+  SANDGLASS_LOOP static Motions<V> motions(const ParticleView& v, std::int64_t p) {
+    const auto m = motionsOfEight<turning, spin>(v, p);
+    Motions<V> out;
+    out.velocity = {m.motion.x, m.motion.y, m.motion.z};
+    out.inverseMass = m.motion.w;
+    if constexpr (turning) {
+      out.roll = {m.roll.x, m.roll.y, m.roll.z};
+      out.inverseRadii = m.roll.w;
+    }
+    if constexpr (spin) {
+      out.spin = {m.spin.x, m.spin.y, m.spin.z};
+      out.rollingInverse = m.spin.w;
+    }
+    return out;
   }
   SANDGLASS_LOOP static V read(const double* from) { return _mm512_loadu_pd(from); }
   SANDGLASS_LOOP static void write(double* to, V value) { _mm512_storeu_pd(to, value); }
@@ -37,14 +45,17 @@ template <class A> struct Width512 {
     if constexpr (quads == 1)
       scatter(f.x, f.y, f.z, out, 4);
     else
-      scatterTwo(f.x, f.y, f.z, t.x, t.y, t.z, out);
+      scatterTwo<4 * quads>(f.x, f.y, f.z, t.x, t.y, t.z, out);
+  }
+  SANDGLASS_LOOP static void storeCouple(double* out, const Vector3<V>& m) {
+    scatter(m.x, m.y, m.z, out + 8, 12);
   }
 };
 
 } // namespace
 
 FusedLoop fusedLoopAvx512(const FusedLaws& laws, bool fast) {
-  return fast ? pickFusedLoop<Width512<FastAvx512>>(laws) : pickFusedLoop<Width512<ExactAvx512>>(laws);
+  return fast ? pickDoubleLoop<Width512<FastAvx512>>(laws) : pickDoubleLoop<Width512<ExactAvx512>>(laws);
 }
 
 } // namespace sandglass

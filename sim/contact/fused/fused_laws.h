@@ -2,10 +2,11 @@
 // Combinations of laws that have a loop of their own, from grain records to outputs without columns in
 // between. They give the same bits as the laws one after the other, and exist for the combinations that
 // `bench core` shows to be worth it: one pair of materials, a linear or Hertz normal law, alone or with a
-// tangential spring, and no more.
+// tangential spring, and with rolling resistance on top of it.
 
 #include "sim/contact/laws/hertz_formula.h"
 #include "sim/contact/laws/linear_formula.h"
+#include "sim/contact/laws/rolling_formula.h"
 #include "sim/contact/laws/spring_formula.h"
 #include "sim/contact/pair_kernel.h"
 
@@ -15,16 +16,20 @@ namespace sandglass {
 
 /// What a law says to be fused; a law that says nothing is not.
 struct FusedLaws {
-  enum class Normal { other, linear, linearOfMass, hertz };
+  enum class Normal { other, linear, linearOfMass, hertz, hertzOfSize };
   enum class Tangential { other, none, spring };
-  int type = 0;                  ///< pair of materials, row of the laws' tables
-  Normal normal = Normal::other; ///< hertz: with the dashpot of a given restitution
+  enum class Rolling { other, none, elasticPlastic, constantTorque };
+  int type = 0; ///< pair of materials, row of the laws' tables
+  /// hertz: with the dashpot of a given restitution, of grains of one size unless it says otherwise
+  Normal normal = Normal::other;
   Tangential tangential = Tangential::other;
+  Rolling rolling = Rolling::other;
   Dashpot dashpot = Dashpot::none;
   bool project = false, radiusArm = false;
   LinearConstants<double> linear;
   HertzConstants<double> hertz;
   SpringConstants<double> spring;
+  RollingConstants<double> couple;
 };
 
 /// Evaluates pairs first .. last - 1, multiples of 8 and no more than a block: outputs, which begin at `out`,

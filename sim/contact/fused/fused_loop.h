@@ -1,11 +1,14 @@
 #pragma once
 // The text of all fused loops. `W` is a register width: its vector `V` of `lanes` numbers `Real`, places()
-// and motions() of that many pairs from grain records, store() to outputs, and its arithmetic. `Reach` of a
+// and motions() of that many pairs from grain records, store() to outputs (storeCouple() for those of rolling
+// resistance, which comes in double precision alone), and its arithmetic. `Reach` of a
 // register of pairs is what tells, with their distances, how far they overlap.
 
 #include "sim/contact/contact_geometry.h"
 #include "sim/contact/fused/fused_laws.h"
 #include "sim/contact/laws/narrowed.h"
+
+#include <type_traits>
 
 namespace sandglass {
 
@@ -16,13 +19,45 @@ namespace {
 template <class Real> struct Staged {
   static constexpr int capacity = ContactBlock::capacity;
   alignas(64) Real nx[capacity], ny[capacity], nz[capacity], overlap[capacity], vn[capacity];
-  alignas(64) Real slipX[capacity], slipY[capacity], slipZ[capacity], arm[capacity], mass[capacity];
+  alignas(64) Real slipX[capacity], slipY[capacity], slipZ[capacity], arm[capacity], mass[capacity],
+      radius[capacity];
 };
 
-/// Where the histories of pair p begin: three numbers, `lane` places apart.
-template <class Real> SANDGLASS_LOOP Real* springOf(const ParticleView& v, std::int64_t p) {
-  return reinterpret_cast<Real*>(v.history) + p / ParticleView::lane * 3 * ParticleView::lane +
+/// The same for the couples against rolling, which have a pass of their own.
+template <class Real> struct StagedRolling {
+  static constexpr int capacity = ContactBlock::capacity;
+  alignas(64) Real spinX[capacity], spinY[capacity], spinZ[capacity], radius[capacity], inverse[capacity];
+  alignas(64) Real load[capacity], stiffness[capacity];
+};
+struct NothingStaged {};
+
+/// Of pairs: differences of velocities and spins, sums of radius times spin, of 1/mass, of 1/radius and of
+/// rollingInverse(). Those that no law of a combination reads are left out.
+template <class V> struct Motions {
+  Vector3<V> velocity, roll, spin;
+  V inverseMass, inverseRadii, rollingInverse;
+};
+
+/// Numbers of history a pair: a spring, then a rolling angle.
+constexpr int historySizeOf(FusedLaws::Rolling rolling) {
+  return rolling == FusedLaws::Rolling::elasticPlastic ? 6 : 3;
+}
+
+/// Where the histories of pair p begin: `size` numbers, `lane` places apart.
+template <int size, class Real> SANDGLASS_LOOP Real* historyOf(const ParticleView& v, std::int64_t p) {
+  return reinterpret_cast<Real*>(v.history) + p / ParticleView::lane * size * ParticleView::lane +
          p % ParticleView::lane;
+}
+
+template <class W, class Real> SANDGLASS_LOOP Vector3<typename W::V> readVector(const Real* at) {
+  constexpr int lane = ParticleView::lane;
+  return {W::read(at), W::read(at + lane), W::read(at + 2 * lane)};
+}
+template <class W, class Real> SANDGLASS_LOOP void writeVector(Real* at, const Vector3<typename W::V>& s) {
+  constexpr int lane = ParticleView::lane;
+  W::write(at, s.x);
+  W::write(at + lane, s.y);
+  W::write(at + 2 * lane, s.z);
 }
 
 /// Reach of pairs in double precision.
@@ -36,45 +71,54 @@ template <class A, class V> struct SumOfRadii {
 };
 
 /// Pairs none of which touches: no force, no history. Zeros are written once, to spare the memory.
-template <class W, bool turning>
+template <class W, bool turning, int historySize, int outputQuads>
 void rest(const ParticleView& v, std::int64_t p, bool keepHistory, double* out) {
   const auto zero = W::Arithmetic::template all<typename W::V>(0.0);
   if (turning && !keepHistory && !v.quiet[p / W::lanes]) {
-    for (int k = 0; k < 3; ++k)
-      W::write(springOf<typename W::Real>(v, p) + ParticleView::lane * k, zero);
+    for (int k = 0; k < historySize; ++k)
+      W::write(historyOf<historySize, typename W::Real>(v, p) + ParticleView::lane * k, zero);
     v.quiet[p / W::lanes] = 1;
   }
-  W::template clear<turning ? 2 : 1>(out);
+  W::template clear<outputQuads>(out);
 }
 
-template <class W, FusedLaws::Normal kind, bool turning, bool project, Dashpot dashpot>
+template <class W, FusedLaws::Normal kind, bool turning, bool project, Dashpot dashpot,
+          FusedLaws::Rolling rolling = FusedLaws::Rolling::none>
 double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t first, std::int64_t last,
                  double dt, bool keepHistory, double* out) {
   using V = typename W::V;
   using Real = typename W::Real;
   using A = typename W::Arithmetic;
   using Normal = FusedLaws::Normal;
-  constexpr bool massive = kind == Normal::linearOfMass || kind == Normal::hertz || dashpot == Dashpot::rate;
+  using Rolling = FusedLaws::Rolling;
+  constexpr bool hertzian = kind == Normal::hertz || kind == Normal::hertzOfSize;
+  constexpr bool massive = kind == Normal::linearOfMass || hertzian || dashpot == Dashpot::rate;
+  constexpr bool rolls = rolling != Rolling::none, sized = kind == Normal::hertzOfSize || rolls;
+  constexpr int historySize = historySizeOf(rolling);
   const auto linear = narrowed<LinearConstants<Real>, Real>(laws.linear);
   const auto hertz = narrowed<HertzConstants<Real>, Real>(laws.hertz);
   const auto spring = narrowed<SpringConstants<Real>, Real>(laws.spring);
-  constexpr int outputQuads = turning ? 2 : 1, stride = W::quad * outputQuads;
+  const auto couple = narrowed<RollingConstants<Real>, Real>(laws.couple);
+  constexpr int outputQuads = rolls ? 3 : turning ? 2 : 1, stride = W::quad * outputQuads;
   const V zero = A::template all<V>(0.0), one = A::template all<V>(1.0);
-  const V radius = A::template all<V>(v.oneRadius * v.oneRadius / (v.oneRadius + v.oneRadius));
+  const V oneRadius = A::template all<V>(1.0 / (1.0 / v.oneRadius + 1.0 / v.oneRadius));
+  const bool anyRadius = kind == Normal::hertzOfSize || (couple.coefficient != 0 && v.oneRadius == 0.0);
   const bool radiusArm = laws.radiusArm;
   const int count = static_cast<int>(last - first);
   Staged<Real> b;
+  std::conditional_t<rolls, StagedRolling<Real>, NothingStaged> r;
   V deepest = zero;
   // Roots and quotients take long: those of the next pairs are begun before these are used.
   struct Ahead {
     bool near;
-    Vector3<V> apart, motion, roll;
+    Vector3<V> apart;
+    Motions<V> motion;
     typename W::Reach reach;
-    V inverseMass, distance, inverse;
+    V distance, inverse;
   };
   const auto begin = [&](int c, Ahead& a) SANDGLASS_LAMBDA {
     a.apart = W::template places<turning>(v, first + c, a.reach);
-    a.motion = W::template motions<turning>(v, first + c, a.inverseMass, a.roll);
+    a.motion = W::template motions<turning, rolls>(v, first + c);
     const V squared = dot<A>(a.apart, a.apart);
     a.near = a.reach.mayTouch(squared);
     a.inverse = A::overRoot(one, squared, a.distance);
@@ -86,7 +130,7 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
     const Ahead now = next;
     if (c + W::lanes < count) begin(c + W::lanes, next);
     if (!now.near) {
-      rest<W, turning>(v, first + c, keepHistory, out + c * stride);
+      rest<W, turning, historySize, outputQuads>(v, first + c, keepHistory, out + c * stride);
       continue;
     }
     active[actives++] = c;
@@ -102,13 +146,25 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       arm = A::over(now.distance, now.reach.radii);
       W::write(b.arm + c, arm);
     }
-    const ContactMotion<V> contact = contactMotion<A, turning>(n, now.motion, now.roll, arm);
+    const ContactMotion<V> contact = contactMotion<A, turning>(n, now.motion.velocity, now.motion.roll, arm);
     W::write(b.vn + c, contact.vn);
-    if constexpr (massive) W::write(b.mass + c, A::over(one, now.inverseMass));
+    if constexpr (massive) W::write(b.mass + c, A::over(one, now.motion.inverseMass));
     if constexpr (turning) {
       W::write(b.slipX + c, contact.slip.x);
       W::write(b.slipY + c, contact.slip.y);
       W::write(b.slipZ + c, contact.slip.z);
+    }
+    if constexpr (sized) {
+      V radius = oneRadius;
+      if (anyRadius) radius = A::over(one, now.motion.inverseRadii);
+      W::write(b.radius + c, radius);
+    }
+    if constexpr (rolls) {
+      const Vector3<V> spin = acrossNormal<A>(n, now.motion.spin);
+      W::write(r.spinX + c, spin.x);
+      W::write(r.spinY + c, spin.y);
+      W::write(r.spinZ + c, spin.z);
+      W::write(r.inverse + c, now.motion.rollingInverse);
     }
   }
   for (int k = 0; k < actives; ++k) {
@@ -123,29 +179,54 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       normal = linearForce<A>(linear, A::template all<V>(linear.gamma), overlap, vn);
     else if constexpr (kind == Normal::linearOfMass)
       normal = linearForce<A>(linear, linearDamping<A>(linear, mass), overlap, vn);
+    else if constexpr (kind == Normal::hertz)
+      normal = hertzForce<A, true, true>(hertz, overlap, vn, oneRadius, mass);
     else
-      normal = hertzForce<A, true, true>(hertz, overlap, vn, radius, mass);
+      normal = hertzForce<A, true, true>(hertz, overlap, vn, W::read(b.radius + c), mass);
+    if constexpr (rolls) {
+      W::write(r.load + c, normal.load);
+      if (hertzian) W::write(r.stiffness + c, normal.stiffness);
+    }
     if constexpr (!turning) {
       const Vector3<V> force = times(normal.force, n);
       W::template store<1>(out + stride * c, force, force);
     } else {
-      Real* history = springOf<Real>(v, p);
-      constexpr int lane = ParticleView::lane;
-      Vector3<V> s{W::read(history), W::read(history + lane), W::read(history + 2 * lane)};
+      Real* history = historyOf<historySize, Real>(v, p);
+      Vector3<V> s = readVector<W>(history);
       const Vector3<V> slip{W::read(b.slipX + c), W::read(b.slipY + c), W::read(b.slipZ + c)};
       const Vector3<V> ft =
           springForce<A, project, dashpot>(spring, n, slip, overlap, normal, mass, static_cast<Real>(dt), s);
       if (!keepHistory) {
         v.quiet[p / W::lanes] = 0;
-        W::write(history, s.x);
-        W::write(history + lane, s.y);
-        W::write(history + 2 * lane, s.z);
+        writeVector<W>(history, s);
       }
       V arm = one;
       if (!radiusArm) arm = W::read(b.arm + c);
-      W::template store<2>(out + stride * c, plus<A>(ft, normal.force, n), contactTorque<A>(n, arm, ft));
+      W::template store<outputQuads>(out + stride * c, plus<A>(ft, normal.force, n),
+                                     contactTorque<A>(n, arm, ft));
     }
   }
+  if constexpr (rolls)
+    for (int k = 0; k < actives; ++k) {
+      const int c = active[k];
+      const Vector3<V> n{W::read(b.nx + c), W::read(b.ny + c), W::read(b.nz + c)};
+      const RollingPair<V> pair{{W::read(r.spinX + c), W::read(r.spinY + c), W::read(r.spinZ + c)},
+                                W::read(b.radius + c),
+                                W::read(r.inverse + c)};
+      const V overlap = W::read(b.overlap + c), load = W::read(r.load + c);
+      if constexpr (rolling == Rolling::elasticPlastic) {
+        V stiffness = A::template all<V>(linear.k);
+        if (hertzian) stiffness = W::read(r.stiffness + c);
+        Real* history = historyOf<historySize, Real>(v, first + c) + 3 * ParticleView::lane;
+        Vector3<V> angle = readVector<W>(history);
+        W::storeCouple(out + stride * c, elasticPlasticCouple<A>(couple, n, pair, overlap, load, stiffness,
+                                                                 static_cast<Real>(dt), angle));
+        if (!keepHistory) writeVector<W>(history, angle);
+      } else {
+        W::storeCouple(out + stride * c,
+                       constantCouple<A>(couple, pair, overlap, load, coupleCap(static_cast<Real>(dt))));
+      }
+    }
   alignas(64) Real each[W::lanes];
   W::write(each, deepest);
   double most = 0.0;
@@ -159,6 +240,7 @@ template <class W> FusedLoop pickFusedLoop(const FusedLaws& laws) {
   using Normal = FusedLaws::Normal;
   using Tangential = FusedLaws::Tangential;
   constexpr Dashpot none = Dashpot::none, coefficient = Dashpot::coefficient;
+  if (laws.rolling != FusedLaws::Rolling::none) return nullptr;
   if (laws.tangential == Tangential::none) {
     if (laws.normal == Normal::linear) return fusedLoop<W, Normal::linear, false, false, none>;
     if (laws.normal == Normal::linearOfMass) return fusedLoop<W, Normal::linearOfMass, false, false, none>;
@@ -181,13 +263,47 @@ template <class W> FusedLoop pickFusedLoop(const FusedLaws& laws) {
   return nullptr;
 }
 
+/// The loop of a spring with rolling resistance, or null.
+template <class W, FusedLaws::Rolling rolling> FusedLoop pickRollingLoop(const FusedLaws& laws) {
+  using Normal = FusedLaws::Normal;
+  constexpr Dashpot none = Dashpot::none, coefficient = Dashpot::coefficient;
+  if (laws.tangential != FusedLaws::Tangential::spring || laws.project) return nullptr;
+  if (laws.normal == Normal::linear && laws.dashpot == none)
+    return fusedLoop<W, Normal::linear, true, false, none, rolling>;
+  if (laws.normal == Normal::linear && laws.dashpot == coefficient)
+    return fusedLoop<W, Normal::linear, true, false, coefficient, rolling>;
+  if (laws.normal == Normal::linearOfMass && laws.dashpot == none)
+    return fusedLoop<W, Normal::linearOfMass, true, false, none, rolling>;
+  if (laws.normal == Normal::linearOfMass && laws.dashpot == coefficient)
+    return fusedLoop<W, Normal::linearOfMass, true, false, coefficient, rolling>;
+  if (laws.normal == Normal::hertz && laws.dashpot == coefficient)
+    return fusedLoop<W, Normal::hertz, true, false, coefficient, rolling>;
+  if (laws.normal == Normal::hertzOfSize && laws.dashpot == coefficient)
+    return fusedLoop<W, Normal::hertzOfSize, true, false, coefficient, rolling>;
+  return nullptr;
+}
+
+/// All loops of double precision.
+template <class W> FusedLoop pickDoubleLoop(const FusedLaws& laws) {
+  using Normal = FusedLaws::Normal;
+  using Rolling = FusedLaws::Rolling;
+  if (laws.rolling == Rolling::elasticPlastic) return pickRollingLoop<W, Rolling::elasticPlastic>(laws);
+  if (laws.rolling == Rolling::constantTorque) return pickRollingLoop<W, Rolling::constantTorque>(laws);
+  if (laws.normal == Normal::hertzOfSize && laws.tangential == FusedLaws::Tangential::spring &&
+      laws.dashpot == Dashpot::coefficient && !laws.project && laws.rolling == Rolling::none)
+    return fusedLoop<W, Normal::hertzOfSize, true, false, Dashpot::coefficient>;
+  return pickFusedLoop<W>(laws);
+}
+
 /// As pickFusedLoop, and for what has none a loop that reads each pair's mass and has all dashpots: the same
 /// forces, though not the bits of the laws one by one.
 template <class W> FusedLoop pickGeneralLoop(const FusedLaws& laws) {
   using Normal = FusedLaws::Normal;
   using Tangential = FusedLaws::Tangential;
   if (const FusedLoop own = pickFusedLoop<W>(laws)) return own;
-  if (laws.normal == Normal::other || laws.tangential == Tangential::other) return nullptr;
+  if (laws.normal == Normal::other || laws.tangential == Tangential::other ||
+      laws.rolling != FusedLaws::Rolling::none)
+    return nullptr;
   const bool hertz = laws.normal == Normal::hertz;
   if (laws.tangential == Tangential::none) return fusedLoop<W, Normal::hertz, false, false, Dashpot::none>;
   if (laws.project)

@@ -5,12 +5,11 @@
 // capped at a sixth of what stops the pair within a step, so that twelve neighbours of equal size together
 // do not turn the spin round; a single slow contact then comes to rest within some ten steps.
 
+#include "sim/contact/fused/fused_laws.h"
 #include "sim/contact/law_loop.h"
 #include "sim/contact/laws/law_options.h"
 #include "sim/contact/laws/laws.h"
-
-#include <algorithm>
-#include <cmath>
+#include "sim/contact/laws/rolling_pair.h"
 
 namespace sandglass {
 
@@ -36,27 +35,23 @@ public:
 
   template <class Real, class Table>
   SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int, const Table& table) const {
-    const Real inverseStep = b.dt > 0 ? 1 / b.dt : Real(0);
-    const bool moves = b.dt > 0;
+    const Real most = coupleCap(b.dt);
     SANDGLASS_CONTACTS(i) {
       const auto c = table(i);
-      const Real twist = b.wx[i] * b.nx[i] + b.wy[i] * b.ny[i] + b.wz[i] * b.nz[i];
-      const Real wx = b.wx[i] - twist * b.nx[i], wy = b.wy[i] - twist * b.ny[i],
-                 wz = b.wz[i] - twist * b.nz[i];
-      const Real w = std::sqrt(wx * wx + wy * wy + wz * wz);
-      const Real inverseInertia = Real(2.5) * (b.inverseMassA[i] / (b.radiusA[i] * b.radiusA[i]) +
-                                               b.inverseMassB[i] / (b.radiusB[i] * b.radiusB[i]));
-      const Real most = Real(1.0 / 6.0) * inverseStep / inverseInertia; // couple over spin
-      const Real limit = (c.length + c.coefficient * b.effectiveRadius[i]) * b.contactForce[i];
-      const Real free = w > 0 ? limit / w : Real(0);
-      const Real factor = b.overlap[i] > 0 ? (moves ? std::min(free, most) : free) : Real(0);
-      b.mx[i] -= factor * wx;
-      b.my[i] -= factor * wy;
-      b.mz[i] -= factor * wz;
+      const Vector3<Real> couple =
+          constantCouple<ScalarArithmetic>(c, rollingPair(b, i), b.overlap[i], b.contactForce[i], most);
+      b.mx[i] += couple.x;
+      b.my[i] += couple.y;
+      b.mz[i] += couple.z;
     }
   }
 
-  template <class Real> struct Constants { Real length = 0, coefficient = 0; };
+  void fuse(FusedLaws& laws) const override {
+    laws.rolling = FusedLaws::Rolling::constantTorque;
+    laws.couple = table_[laws.type];
+  }
+
+  template <class Real> using Constants = RollingConstants<Real>;
   std::vector<Constants<double>> table_;
 };
 

@@ -5,11 +5,11 @@
 // l the rolling length: given, or a coefficient times the effective radius. The dashpot acts while the couple
 // is below its limit. Rotation about the normal (torsion) is left free.
 
+#include "sim/contact/fused/fused_laws.h"
 #include "sim/contact/law_loop.h"
 #include "sim/contact/laws/law_options.h"
 #include "sim/contact/laws/laws.h"
-
-#include <cmath>
+#include "sim/contact/laws/rolling_pair.h"
 
 namespace sandglass {
 
@@ -40,33 +40,16 @@ public:
     Real *ax = b.history[first], *ay = b.history[first + 1], *az = b.history[first + 2];
     SANDGLASS_CONTACTS(i) {
       const auto c = table(i);
-      const Real twist = b.wx[i] * b.nx[i] + b.wy[i] * b.ny[i] + b.wz[i] * b.nz[i];
-      const Real wx = b.wx[i] - twist * b.nx[i], wy = b.wy[i] - twist * b.ny[i],
-                 wz = b.wz[i] - twist * b.nz[i];
-      const Real along = ax[i] * b.nx[i] + ay[i] * b.ny[i] + az[i] * b.nz[i];
-      Real x = ax[i] - along * b.nx[i] + wx * b.dt, y = ay[i] - along * b.ny[i] + wy * b.dt,
-           z = az[i] - along * b.nz[i] + wz * b.dt;
-      const Real length = c.length + c.coefficient * b.effectiveRadius[i];
-      const Real k = Real(2.25) * b.stiffness[i] * length * length;
-      const Real limit = length * b.contactForce[i];
-      const Real elastic = k * std::sqrt(x * x + y * y + z * z);
-      const bool yields = elastic > limit;
-      const Real scale = yields ? limit / elastic : Real(1);
-      x *= scale;
-      y *= scale;
-      z *= scale;
-      // Moment of inertia of the pair about the contact: 1/I = sum of 1/(7/5 m r^2).
-      const Real inverseInertia = (b.inverseMassA[i] / (b.radiusA[i] * b.radiusA[i]) +
-                                   b.inverseMassB[i] / (b.radiusB[i] * b.radiusB[i])) /
-                                  Real(1.4);
-      const Real dashpot = yields ? 0 : 2 * c.damping * std::sqrt(k / inverseInertia);
-      const bool touches = b.overlap[i] > 0;
-      ax[i] = touches ? x : 0;
-      ay[i] = touches ? y : 0;
-      az[i] = touches ? z : 0;
-      b.mx[i] += touches ? -k * x - dashpot * wx : 0;
-      b.my[i] += touches ? -k * y - dashpot * wy : 0;
-      b.mz[i] += touches ? -k * z - dashpot * wz : 0;
+      const Vector3<Real> n{b.nx[i], b.ny[i], b.nz[i]};
+      Vector3<Real> angle{ax[i], ay[i], az[i]};
+      const Vector3<Real> couple = elasticPlasticCouple<ScalarArithmetic>(
+          c, n, rollingPair(b, i), b.overlap[i], b.contactForce[i], b.stiffness[i], b.dt, angle);
+      ax[i] = angle.x;
+      ay[i] = angle.y;
+      az[i] = angle.z;
+      b.mx[i] += couple.x;
+      b.my[i] += couple.y;
+      b.mz[i] += couple.z;
     }
   }
 
@@ -81,7 +64,12 @@ public:
 
   unsigned reads() const override { return radii | masses | effectiveRadius; }
 
-  template <class Real> struct Constants { Real length = 0, coefficient = 0, damping = 0; };
+  void fuse(FusedLaws& laws) const override {
+    laws.rolling = FusedLaws::Rolling::elasticPlastic;
+    laws.couple = table_[laws.type];
+  }
+
+  template <class Real> using Constants = RollingConstants<Real>;
   std::vector<Constants<double>> table_;
 };
 

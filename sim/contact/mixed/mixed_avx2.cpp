@@ -85,17 +85,18 @@ struct Width256 {
     return {_mm256_cvtepi32_ps(x), _mm256_cvtepi32_ps(y), _mm256_cvtepi32_ps(z)};
   }
 
-  template <bool turning>
-  SANDGLASS_LOOP static Vector3<V> motions(const ParticleView& v, std::int64_t p, V& inverseMass,
-                                           Vector3<V>& roll) {
+  template <bool turning, bool>
+  SANDGLASS_LOOP static Motions<V> motions(const ParticleView& v, std::int64_t p) {
+    Motions<V> out;
     const __m256 minus = _mm256_setr_ps(-1, -1, -1, 1, -1, -1, -1, 1);
     if constexpr (turning) {
       const Columns sums = combined<turning>(v, p, 8, _mm256_set1_ps(1));
-      roll = {sums.x, sums.y, sums.z};
+      out.roll = {sums.x, sums.y, sums.z};
     }
     const Columns motion = combined<turning>(v, p, 4, minus);
-    inverseMass = motion.w;
-    return {motion.x, motion.y, motion.z};
+    out.velocity = {motion.x, motion.y, motion.z};
+    out.inverseMass = motion.w;
+    return out;
   }
 
   SANDGLASS_LOOP static V read(const float* from) { return _mm256_loadu_ps(from); }

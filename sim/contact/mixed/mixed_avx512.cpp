@@ -87,9 +87,9 @@ template <class A> struct Width512 {
     return {_mm512_cvtepi32_ps(x), _mm512_cvtepi32_ps(y), _mm512_cvtepi32_ps(z)};
   }
 
-  template <bool turning>
-  SANDGLASS_LOOP static Vector3<V> motions(const ParticleView& v, std::int64_t p, V& inverseMass,
-                                           Vector3<V>& roll) {
+  template <bool turning, bool>
+  SANDGLASS_LOOP static Motions<V> motions(const ParticleView& v, std::int64_t p) {
+    Motions<V> out;
     constexpr std::int64_t stride = turning ? 12 : 8;
     const std::int32_t* records = v.mixed + 4;
     const std::int32_t* pair = v.pairs + 2 * p;
@@ -109,9 +109,9 @@ template <class A> struct Width512 {
       }
       const auto even = [](__m512 a, __m512 b) SANDGLASS_LAMBDA { return _mm512_shuffle_f32x4(a, b, 0x88); };
       const auto odd = [](__m512 a, __m512 b) SANDGLASS_LAMBDA { return _mm512_shuffle_f32x4(a, b, 0xdd); };
-      inverseMass = even(half[0].w, half[1].w);
-      roll = {odd(half[0].x, half[1].x), odd(half[0].y, half[1].y), odd(half[0].z, half[1].z)};
-      return {even(half[0].x, half[1].x), even(half[0].y, half[1].y), even(half[0].z, half[1].z)};
+      out.inverseMass = even(half[0].w, half[1].w);
+      out.roll = {odd(half[0].x, half[1].x), odd(half[0].y, half[1].y), odd(half[0].z, half[1].z)};
+      out.velocity = {even(half[0].x, half[1].x), even(half[0].y, half[1].y), even(half[0].z, half[1].z)};
     } else {
       const __m512 sign = _mm512_setr_ps(-1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, 1);
       __m512 q[4];
@@ -123,9 +123,10 @@ template <class A> struct Width512 {
         q[k] = _mm512_fmadd_ps(_mm512_castsi512_ps(z), sign, _mm512_castsi512_ps(a));
       }
       const Columns all = transpose(q[0], q[1], q[2], q[3]);
-      inverseMass = all.w;
-      return {all.x, all.y, all.z};
+      out.inverseMass = all.w;
+      out.velocity = {all.x, all.y, all.z};
     }
+    return out;
   }
 
   SANDGLASS_LOOP static V read(const float* from) { return _mm512_loadu_ps(from); }

@@ -36,13 +36,16 @@ struct Width1 {
     reach.squares = static_cast<float>(squares * v.unit);
     return {static_cast<float>(apart[0]), static_cast<float>(apart[1]), static_cast<float>(apart[2])};
   }
-  template <bool turning>
-  static Vector3<V> motions(const ParticleView& v, std::int64_t p, V& inverseMass, Vector3<V>& roll) {
+  template <bool turning, bool> static Motions<V> motions(const ParticleView& v, std::int64_t p) {
     const std::int32_t *a = record(v, p, 0), *z = record(v, p, 1);
-    inverseMass = number(a + 7) + number(z + 7);
+    Motions<V> out;
+    out.inverseMass = number(a + 7) + number(z + 7);
     if constexpr (turning)
-      roll = {number(a + 8) + number(z + 8), number(a + 9) + number(z + 9), number(a + 10) + number(z + 10)};
-    return {number(a + 4) - number(z + 4), number(a + 5) - number(z + 5), number(a + 6) - number(z + 6)};
+      out.roll = {number(a + 8) + number(z + 8), number(a + 9) + number(z + 9),
+                  number(a + 10) + number(z + 10)};
+    out.velocity = {number(a + 4) - number(z + 4), number(a + 5) - number(z + 5),
+                    number(a + 6) - number(z + 6)};
+    return out;
   }
   static V read(const float* from) { return *from; }
   static void write(float* to, V value) { *to = value; }

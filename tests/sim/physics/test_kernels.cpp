@@ -69,7 +69,7 @@ density = "3000 kg/m^3"
 
 /// Grains of one material: what the loops of their own (fused_laws.h) are for.
 Scene single(const std::string& normal, const std::string& tangential, double diameterOfB,
-             const std::string& accuracy = "") {
+             const std::string& accuracy = "", const std::string& rolling = R"({ law = "none" })") {
   return falling(R"(
 [[material]]
 name = "glass"
@@ -79,17 +79,14 @@ poisson_ratio = 0.3
 [[contact]]
 between = ["glass", "glass"]
 normal = )" + normal +
-                     "\ntangential = " + tangential,
+                     "\ntangential = " + tangential + "\nrolling = " + rolling,
                  "glass", "glass", diameterOfB, accuracy.empty() ? "" : "[accuracy]\n" + accuracy);
 }
 
 const std::string linearLaw = R"({ law = "linear", stiffness = "400 N/m", restitution = 0.7 })",
                   hertzLaw = R"({ law = "hertz", restitution = 0.7 })";
 
-std::vector<GrainSeed> afterRun(const Scene& scene, const char* kernel, int steps = 4000) {
-  setenv("SANDGLASS_KERNEL", kernel, 1);
-  DemSolver solver(scene, {1});
-  unsetenv("SANDGLASS_KERNEL");
+std::vector<GrainSeed> seedsOf(const Scene& scene) {
   std::vector<GrainSeed> seeds;
   for (int k = 0; k < 500; ++k) {
     RandomStream random(3, RandomPurpose::test, k);
@@ -102,16 +99,30 @@ std::vector<GrainSeed> afterRun(const Scene& scene, const char* kernel, int step
     s.spin = 50.0 * random.direction();
     seeds.push_back(s);
   }
-  solver.add(seeds);
+  return seeds;
+}
+
+std::vector<GrainSeed> afterRun(const Scene& scene, const char* kernel, int steps = 4000) {
+  setenv("SANDGLASS_KERNEL", kernel, 1);
+  DemSolver solver(scene, {1});
+  unsetenv("SANDGLASS_KERNEL");
+  solver.add(seedsOf(scene));
   solver.advance(steps);
   return solver.present();
 }
 
-void compareKernels(const Scene& scene) {
-  const auto expected = afterRun(scene, "plain");
+bool hasOwnLoop(const Scene& scene) {
+  DemSolver solver(scene, {1});
+  solver.add(seedsOf(scene));
+  solver.advance(1);
+  return solver.hasOwnLoop();
+}
+
+void compareKernels(const Scene& scene, int steps = 4000) {
+  const auto expected = afterRun(scene, "plain", steps);
   for (const char* kernel : {"avx2", "avx512"}) { // a narrower processor takes its widest for the last
     CAPTURE(kernel);
-    const auto found = afterRun(scene, kernel);
+    const auto found = afterRun(scene, kernel, steps);
     REQUIRE(found.size() == expected.size());
     int same = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
@@ -153,6 +164,26 @@ TEST_CASE("loops of their own give the plain kernel's bits over whole runs") {
     CAPTURE(c.normal, c.tangential, c.second);
     compareKernels(single(c.normal, c.tangential, c.second));
   }
+}
+
+TEST_CASE("loops with rolling resistance give the plain kernel's bits over whole runs") {
+  const std::string spring = R"({ law = "spring", friction = 0.4)",
+                    mindlin = R"({ law = "mindlin", friction = 0.4 })";
+  const std::vector<std::pair<std::string, std::string>> below{
+      {linearLaw, spring + " }"},
+      {linearLaw, spring + R"(, damping_ratio = 0.5, arm = "radius" })"},
+      {hertzLaw, mindlin}};
+  const auto rolling = GENERATE(as<std::string>{}, R"({ law = "elastic_plastic", coefficient = 0.1 })",
+                                R"({ law = "elastic_plastic", length = "0.03 mm", damping = 0.0 })",
+                                R"({ law = "constant_torque", coefficient = 0.1 })",
+                                R"({ law = "constant_torque", length = "0.03 mm" })");
+  for (const auto& [normal, tangential] : below)
+    for (const double second : {2.0, 1.4}) {
+      CAPTURE(normal, tangential, second, rolling);
+      const Scene scene = single(normal, tangential, second, "", rolling);
+      CHECK(hasOwnLoop(scene));
+      compareKernels(scene, 2000);
+    }
 }
 
 TEST_CASE("mixed precision has the same bits at every width over whole runs") {
