@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <limits>
 
 namespace sandglass {
 
 namespace {
 
-/// So few that all threads have pieces, each near the grains that it moves.
-constexpr std::int64_t candidatesPerPiece = 64;
+constexpr std::int32_t ahead = 12; ///< candidates whose grains are asked for from memory
+constexpr std::int64_t nobody = std::numeric_limits<std::int64_t>::max();
 
 /// Rows of what stands in runs of equal ids, found by id: a grain's candidates before it was listed anew.
 /// Open addressing, at most half full.
@@ -44,6 +44,17 @@ private:
   std::vector<std::int32_t> rows_;
 };
 
+/// A table of entries of `size` numbers each, rows for columns.
+template <class T>
+std::vector<T> transposed(const std::vector<T>& all, std::size_t rows, std::size_t columns,
+                          std::size_t size) {
+  std::vector<T> out(all.size());
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t c = 0; c < columns; ++c)
+      std::copy_n(all.data() + (r * columns + c) * size, size, out.data() + (c * rows + r) * size);
+  return out;
+}
+
 } // namespace
 
 void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>& walls, double range,
@@ -67,10 +78,11 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
   for (std::int64_t i = 0; i < n; ++i)
     offsets_[i + 1] += offsets_[i];
 
-  const std::size_t row = static_cast<std::size_t>(slots) * laws_.historySize();
+  const std::size_t size = laws_.historySize();
   feature_.assign(candidates_.size() * slots, -1);
-  history_.assign(candidates_.size() * row, 0.0);
-  result_.assign(candidates_.size() * 6, 0.0);
+  history_.assign(candidates_.size() * slots * size, 0.0);
+  load_.assign(candidates_.size() * 6, 0.0);
+  moving_ = std::any_of(walls.begin(), walls.end(), [](const SolverWall& w) { return w.motion != nullptr; });
   counting_ = std::any_of(walls.begin(), walls.end(), [](const SolverWall& w) { return w.counted; });
   slipWork_.assign(counting_ ? candidates_.size() : 0, 0.0);
   begun_.assign(slipWork_.size(), 0);
@@ -78,9 +90,12 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
   const RowsById rows(oldIds);
   for (std::size_t k = 0; k < candidates_.size(); ++k)
     for (std::size_t at = rows.first(ids_[k]); at < oldIds.size() && oldIds[at] == ids_[k]; ++at) {
-      if (oldCandidates[at].wall != candidates_[k].wall || oldFeature[at * slots] < 0) continue;
-      std::copy_n(oldFeature.data() + at * slots, slots, feature_.data() + k * slots);
-      std::copy_n(oldHistory.data() + at * row, row, history_.data() + k * row);
+      if (oldCandidates[at].wall != candidates_[k].wall || oldFeature[at] < 0) continue;
+      for (int slot = 0; slot < slots; ++slot) {
+        const std::size_t from = slot * oldCandidates.size() + at, to = slot * candidates_.size() + k;
+        feature_[to] = oldFeature[from];
+        std::copy_n(oldHistory.data() + from * size, size, history_.data() + to * size);
+      }
     }
 }
 
@@ -119,26 +134,11 @@ std::vector<std::vector<WallContacts::Found>> WallContacts::findNear(const Grain
   return found;
 }
 
-int WallContacts::touches(const GrainStore& grains, const std::vector<SolverWall>& walls,
-                          std::size_t candidate, double reach, WallShape::Touches& out) const {
-  const Candidate& c = candidates_[candidate];
-  if (!walls[c.wall].active || parted(grains, candidate)) return 0;
-  const Quad& place = grains.place[c.grain];
-  walls[c.wall].touches(place.vec(), place.w + reach, out);
-  return out.count;
-}
-
-int WallContacts::matchHistories(std::size_t candidate, const WallShape::Touches& now,
-                                 double* histories) const {
-  const int size = laws_.historySize();
-  const std::int32_t* before = feature_.data() + candidate * slots;
-  const double* kept = history_.data() + candidate * slots * size;
-  if (now.count == 1 && before[0] == now.at[0].feature) { // nearly always
-    std::copy_n(kept, size, histories);
-    return 0;
-  }
+int WallContacts::matchHistories(std::int32_t candidate, const WallShape::Touches& now, int* source) const {
+  std::int32_t before[slots];
+  for (int s = 0; s < slots; ++s)
+    before[s] = feature_[row(candidate, s)];
   bool taken[slots] = {};
-  int source[slots];
   for (int c = 0; c < now.count; ++c) {
     source[c] = -1;
     for (int s = 0; s < slots; ++s)
@@ -153,153 +153,192 @@ int WallContacts::matchHistories(std::size_t candidate, const WallShape::Touches
         source[c] = s;
         taken[s] = true;
       }
-  for (int c = 0; c < now.count; ++c)
-    for (int k = 0; k < size; ++k)
-      histories[c * size + k] = source[c] < 0 ? 0.0 : kept[source[c] * size + k];
   return static_cast<int>(std::count(source, source + now.count, -1));
 }
 
-void WallContacts::fillOne(const GrainStore& grains, const SolverWall& wall, std::int32_t i,
-                           const WallTouch& touch, const double* history, ContactBlock& b, int c) const {
+std::int32_t WallContacts::gather(const GrainStore& grains, const std::vector<SolverWall>& walls,
+                                  std::int32_t k, std::int32_t end, WallBlock& block) const {
+  const std::size_t size = laws_.historySize();
+  ContactBlock& b = block.contact;
+  b.size = 0;
+  b.oneType = true;
+  block.changes.clear();
+  WallShape::Touches now;
+  for (; k < end; ++k) {
+    // Those near a wall are few and far between in memory.
+    const Quad* soon = &grains.place[candidates_[std::min(k + ahead, end - 1)].grain];
+    __builtin_prefetch(soon);
+    __builtin_prefetch(soon + grains.quadsPerRecord() - 1);
+    const std::int32_t before = feature_[k];
+    if (before < 0 && parted(grains, k)) continue; // nothing then, nothing now
+    const Candidate& at = candidates_[k];
+    const SolverWall& wall = walls[at.wall];
+    now.count = 0;
+    if (wall.active) {
+      const Quad& place = grains.place[at.grain];
+      wall.touches(place.vec(), place.w + laws_.range(), now);
+    }
+    if (b.size + now.count > WallBlock::capacity) break;
+    int source[slots] = {};
+    const bool same =
+        now.count == 1 && before == now.at[0].feature && feature_[row(k, 1)] < 0; // nearly always
+    if (!same && (now.count > 0 || before >= 0))
+      block.changes.push_back({k, b.size, now.count, matchHistories(k, now, source)});
+    for (int t = 0; t < now.count; ++t) {
+      const double* kept = history_.data() + row(k, std::max(source[t], 0)) * size;
+      for (std::size_t q = 0; q < size; ++q)
+        b.history[q][b.size] = source[t] < 0 ? 0.0 : kept[q];
+      gatherOne(grains, wall, k, now.at[t], t, block);
+    }
+  }
+  return k;
+}
+
+void WallContacts::gatherOne(const GrainStore& grains, const SolverWall& wall, std::int32_t candidate,
+                             const WallTouch& touch, int slot, WallBlock& block) const {
+  ContactBlock& b = block.contact;
+  const int c = b.size++;
+  const std::int32_t i = candidates_[candidate].grain;
   const Quad &x = grains.place[i], &v = grains.motion[i];
-  const Vec3& n = touch.normal;
+  block.owner[c] = candidate;
+  block.feature[c] = touch.feature;
+  block.slot[c] = static_cast<std::int8_t>(slot);
+  block.distance[c] = touch.distance;
   b.type[c] = laws_.typeOf(grains.material[i], wall.material);
-  b.nx[c] = n.x();
-  b.ny[c] = n.y();
-  b.nz[c] = n.z();
+  b.oneType = b.oneType && b.type[c] == b.type[0];
+  b.nx[c] = touch.normal.x();
+  b.ny[c] = touch.normal.y();
+  b.nz[c] = touch.normal.z();
   b.overlap[c] = x.w - touch.distance;
-  b.radiusA[c] = b.effectiveRadius[c] = x.w;
-  b.radiusB[c] = 1.0;
+  b.radiusA[c] = x.w;
   b.inverseMassA[c] = v.w;
-  b.inverseMassB[c] = 0.0;
-  b.effectiveMass[c] = 1.0 / v.w;
   Vec3 velocity = v.vec();
-  if (wall.motion) velocity -= wall.contactVelocity.at(x.vec() - touch.distance * n);
-  const double vn = velocity.dot(n);
-  Vec3 slip = velocity - vn * n;
-  if (laws_.turning()) {
-    Vec3 spin = grains.spin(i);
-    slip -= (laws_.fullRadiusArm() ? x.w : touch.distance) * spin.cross(n);
-    if (wall.motion) spin -= wall.contactVelocity.spin;
-    b.wx[c] = spin.x();
-    b.wy[c] = spin.y();
-    b.wz[c] = spin.z();
+  if (wall.motion) velocity -= wall.contactVelocity.at(x.vec() - touch.distance * touch.normal);
+  b.vtx[c] = velocity.x();
+  b.vty[c] = velocity.y();
+  b.vtz[c] = velocity.z();
+  if (!laws_.turning()) return;
+  const Vec3 spin = grains.spin(i);
+  b.wx[c] = spin.x();
+  b.wy[c] = spin.y();
+  b.wz[c] = spin.z();
+}
+
+void WallContacts::finish(const std::vector<SolverWall>& walls, double dt, WallBlock& block) const {
+  ContactBlock& b = block.contact;
+  b.dt = dt;
+  block.finishMotion(laws_.turning(), laws_.fullRadiusArm());
+  for (int c = 0; moving_ && laws_.turning() && c < b.size; ++c) {
+    const SolverWall& wall = walls[candidates_[block.owner[c]].wall];
+    if (!wall.motion) continue;
+    b.wx[c] -= wall.contactVelocity.spin.x();
+    b.wy[c] -= wall.contactVelocity.spin.y();
+    b.wz[c] -= wall.contactVelocity.spin.z();
   }
-  b.vn[c] = vn;
-  b.vtx[c] = slip.x();
-  b.vty[c] = slip.y();
-  b.vtz[c] = slip.z();
-  for (int k = 0; k < laws_.historySize(); ++k)
-    b.history[k][c] = history[k];
+  laws_.apply(b, true);
+  block.finishForces(laws_.ownTorque(), laws_.fullRadiusArm());
 }
 
-void WallContacts::step(const GrainStore& grains, const std::vector<SolverWall>& walls, double dt,
-                        Parallel& parallel, DeepestOverlap& deepest) {
-  std::mutex merge;
-  const int size = laws_.historySize();
-  parallel.forRange(
-      static_cast<std::int64_t>(candidates_.size()), candidatesPerPiece, [&](std::int64_t first, std::int64_t last) {
-        ContactBlock block;
-        block.dt = dt;
-        block.oneType = false;
-        std::vector<double> histories(static_cast<std::size_t>(ContactBlock::capacity) * std::max(1, size));
-        std::int32_t owner[ContactBlock::capacity]; // candidate of each contact in the block
-        double distance[ContactBlock::capacity];
-        DeepestOverlap worst;
-        WallShape::Touches now;
-        block.size = 0;
-        const auto flush = [&] {
-          laws_.apply(block, true);
-          int slot = 0;
-          for (int c = 0; c < block.size; ++c) {
-            const std::size_t k = owner[c];
-            slot = c > 0 && owner[c - 1] == owner[c] ? slot + 1 : 0;
-            double* h = history_.data() + (k * slots + slot) * size;
-            for (int q = 0; q < size; ++q)
-              h[q] = block.history[q][c];
-            const Vec3 n(block.nx[c], block.ny[c], block.nz[c]), ft(block.ftx[c], block.fty[c], block.ftz[c]);
-            const Vec3 f = block.normalForce[c] * n + ft;
-            Vec3 t(block.mx[c], block.my[c], block.mz[c]);
-            if (!laws_.ownTorque()) t -= distance[c] * n.cross(ft);
-            double* out = result_.data() + k * 6;
-            for (int q = 0; q < 3; ++q) {
-              out[q] += f[q];
-              out[3 + q] += t[q];
-            }
-            if (counted(k, walls))
-              slipWork_[k] -= dt * (block.ftx[c] * block.vtx[c] + block.fty[c] * block.vty[c] +
-                                    block.ftz[c] * block.vtz[c]);
-            worst.take(block.overlap[c] / block.radiusA[c], grains.id[candidates_[k].grain], -1,
-                       candidates_[k].wall);
-          }
-          block.size = 0;
-        };
-        for (std::int64_t k = first; k < last; ++k) {
-          if (feature_[k * slots] < 0 && parted(grains, k)) continue; // nothing then, nothing now
-          now.count = 0;
-          const int count = touches(grains, walls, k, laws_.range(), now);
-          std::fill_n(result_.data() + k * 6, 6, 0.0);
-          std::int32_t* feature = feature_.data() + k * slots;
-          if (counting_) {
-            slipWork_[k] = 0.0;
-            begun_[k] = 0;
-          }
-          if (count > 0) {
-            if (block.size + count > ContactBlock::capacity) flush();
-            const int begun = matchHistories(k, now, histories.data());
-            if (counted(k, walls)) begun_[k] = begun;
-            for (int c = 0; c < count; ++c) {
-              owner[block.size] = static_cast<std::int32_t>(k);
-              distance[block.size] =
-                  laws_.fullRadiusArm() ? grains.place[candidates_[k].grain].w : now.at[c].distance;
-              fillOne(grains, walls[candidates_[k].wall], candidates_[k].grain, now.at[c],
-                      histories.data() + c * size, block, block.size);
-              ++block.size;
-            }
-          }
-          for (int s = 0; s < slots; ++s)
-            feature[s] = s < count ? now.at[s].feature : -1;
-        }
-        if (block.size) flush();
-        const std::lock_guard lock(merge);
-        deepest.take(worst.share, worst.idA, worst.idB, worst.wall);
-      });
-}
-
-void WallContacts::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first,
-                         std::int64_t last) const {
-  if (candidates_.empty()) return;
-  for (std::int32_t k = offsets_[first]; k < offsets_[last]; ++k) {
-    if (feature_[k * slots] < 0) continue; // it does not touch
-    const std::int32_t i = candidates_[k].grain;
-    const double* out = result_.data() + static_cast<std::size_t>(k) * 6;
-    double* to = sums.at[i - first];
-    for (int q = 0; q < 3; ++q)
-      to[q] += out[q];
-    if (!grains.turning) continue;
-    for (int q = 0; q < 3; ++q)
-      to[4 + q] += grains.roll[i].w * out[3 + q];
+void WallContacts::remember(const WallBlock& block) {
+  const std::size_t size = laws_.historySize();
+  for (int c = 0; c < block.contact.size; ++c) {
+    double* h = history_.data() + row(block.owner[c], block.slot[c]) * size;
+    for (std::size_t q = 0; q < size; ++q)
+      h[q] = block.contact.history[q][c];
+  }
+  for (const WallBlock::Change& change : block.changes) {
+    for (int s = 0; s < slots; ++s)
+      feature_[row(change.owner, s)] = s < change.count ? block.feature[change.first + s] : -1;
   }
 }
 
-void WallContacts::total(const GrainStore& grains, int wall, Vec3& force, Vec3& torque) const {
+void WallContacts::begin(Sweep& s, const GrainStore& grains, const std::vector<SolverWall>& walls,
+                         std::int64_t first, std::int64_t last, double dt, bool keepHistory, bool loads) {
+  s.dt = dt;
+  s.keepHistory = keepHistory;
+  s.loads = loads;
+  s.upcoming = nobody;
+  if (candidates_.empty() || offsets_[first] == offsets_[last]) return;
+  s.next = offsets_[first];
+  s.end = offsets_[last];
+  if (loads) std::fill(load_.begin() + s.next * 6, load_.begin() + s.end * 6, 0.0);
+  if (counting_) {
+    std::fill(slipWork_.begin() + s.next, slipWork_.begin() + s.end, 0.0);
+    std::fill(begun_.begin() + s.next, begun_.begin() + s.end, 0);
+  }
+  next(grains, walls, s);
+}
+
+void WallContacts::next(const GrainStore& grains, const std::vector<SolverWall>& walls, Sweep& s) {
+  s.row = s.block.rows = 0;
+  while (s.block.rows == 0 && s.next < s.end)
+    evaluate(grains, walls, s);
+  s.upcoming = s.block.rows > 0 ? candidates_[s.block.ownerOfRow[0]].grain : nobody;
+}
+
+void WallContacts::evaluate(const GrainStore& grains, const std::vector<SolverWall>& walls, Sweep& s) {
+  const ContactBlock& b = s.block.contact;
+  s.next = gather(grains, walls, s.next, s.end, s.block);
+  finish(walls, s.dt, s.block);
+  if (counting_) {
+    for (int c = 0; c < b.size; ++c)
+      if (counted(s.block.owner[c], walls))
+        slipWork_[s.block.owner[c]] -=
+            s.dt * (b.ftx[c] * b.vtx[c] + b.fty[c] * b.vty[c] + b.ftz[c] * b.vtz[c]);
+    for (const WallBlock::Change& change : s.block.changes)
+      if (counted(change.owner, walls)) begun_[change.owner] = change.begun;
+  }
+  if (!s.keepHistory) remember(s.block);
+  if (s.block.greatestShare() < s.deepest.share) return;
+  for (int c = 0; c < b.size; ++c) {
+    const Candidate& at = candidates_[s.block.owner[c]];
+    s.deepest.take(s.block.share[c], grains.id[at.grain], -1, at.wall);
+  }
+}
+
+void WallContacts::addTo(GroupSums& sums, const GrainStore& grains, const std::vector<SolverWall>& walls,
+                         std::int64_t first, std::int64_t last, Sweep& s) {
+  using Row = Eigen::Map<const Eigen::Array4d, Eigen::Aligned32>;
+  using Sum = Eigen::Map<Eigen::Array4d, Eigen::Aligned32>;
+  while (s.upcoming < last) {
+    double* to = sums.at[s.upcoming - first];
+    const double* row = s.block.row[s.row];
+    Sum(to) += Row(row);
+    if (grains.turning) Sum(to + 4) += grains.roll[s.upcoming].w * Row(row + 4);
+    if (s.loads) keepLoad(grains, s);
+    if (++s.row < s.block.rows)
+      s.upcoming = candidates_[s.block.ownerOfRow[s.row]].grain;
+    else
+      next(grains, walls, s);
+  }
+}
+
+void WallContacts::keepLoad(const GrainStore& grains, const Sweep& s) {
+  const double* row = s.block.row[s.row];
+  const Vec3 force(row[0], row[1], row[2]), torque(row[4], row[5], row[6]);
+  // Moment about the origin, carried over to the contact.
+  const Vec3 moment = grains.place[s.upcoming].vec().cross(force) + torque;
+  double* load = load_.data() + static_cast<std::size_t>(s.block.ownerOfRow[s.row]) * 6;
+  std::copy_n(force.data(), 3, load);
+  std::copy_n(moment.data(), 3, load + 3);
+}
+
+void WallContacts::total(int wall, Vec3& force, Vec3& torque) const {
   force = torque = Vec3::Zero();
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     if (candidates_[k].wall != wall) continue;
-    const double* out = result_.data() + k * 6;
-    const Vec3 f(out[0], out[1], out[2]), t(out[3], out[4], out[5]);
-    force -= f;
-    torque -= grains.place[candidates_[k].grain].vec().cross(f) +
-              t; // moment about the origin, carried over to the contact
+    const double* load = load_.data() + k * 6;
+    force -= Vec3(load[0], load[1], load[2]);
+    torque -= Vec3(load[3], load[4], load[5]);
   }
 }
 
-void WallContacts::tally(const GrainStore& grains, std::vector<SolverWall>& walls, double dt) const {
+void WallContacts::tally(std::vector<SolverWall>& walls, double dt) const {
   for (std::size_t w = 0; w < walls.size(); ++w) {
     SolverWall& wall = walls[w];
     if (wall.motion) {
       Vec3 force, torque;
-      total(grains, static_cast<int>(w), force, torque);
+      total(static_cast<int>(w), force, torque);
       const WallVelocity& v = wall.velocity;
       const double power = -(force.dot(v.linear) + (torque - v.reference.cross(force)).dot(v.spin));
       wall.tally.work += 0.5 * dt * (wall.tally.power + power);
@@ -312,6 +351,26 @@ void WallContacts::tally(const GrainStore& grains, std::vector<SolverWall>& wall
         wall.tally.collisions += begun_[k];
       }
   }
+}
+
+std::vector<double> WallContacts::histories() const {
+  return transposed(history_, slots, candidates_.size(), laws_.historySize());
+}
+
+std::vector<std::int32_t> WallContacts::features() const {
+  return transposed(feature_, slots, candidates_.size(), 1);
+}
+
+bool WallContacts::setHistories(const std::vector<double>& all) {
+  if (all.size() != history_.size()) return false;
+  history_ = transposed(all, candidates_.size(), slots, laws_.historySize());
+  return true;
+}
+
+bool WallContacts::setFeatures(const std::vector<std::int32_t>& all) {
+  if (all.size() != feature_.size()) return false;
+  feature_ = transposed(all, candidates_.size(), slots, 1);
+  return true;
 }
 
 double WallContacts::storedEnergy(const GrainStore& grains, const std::vector<SolverWall>& walls) const {

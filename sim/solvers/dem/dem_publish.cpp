@@ -184,7 +184,7 @@ std::vector<FrameWall> DemSolver::wallsNow(bool loads) const {
   std::vector<FrameWall> all;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    if (loads && !stale_) wallContacts_.total(grains_, static_cast<int>(w), force, torque);
+    if (loads && !stale_) wallContacts_.total(static_cast<int>(w), force, torque);
     SolverWall wall = walls_[w];
     wall.tally = loads ? atFullStep_.tallies[w] : WallTally{};
     all.push_back(frameWall(wall, force, torque));
@@ -248,8 +248,8 @@ Solver::State DemSolver::save() {
   put(s, "pairs.live", list_.liveArray());
   if (across_.used()) put(s, "across.history", across_.historyArray());
   put(s, "groups.moved", loop_.moved());
-  put(s, "walls.history", wallContacts_.historyArray());
-  put(s, "walls.feature", wallContacts_.featureArray());
+  put(s, "walls.history", wallContacts_.histories());
+  put(s, "walls.feature", wallContacts_.features());
   std::vector<WallState> walls;
   for (const SolverWall& w : walls_)
     walls.push_back({w.active, w.marks, w.allowance, w.listedTime, w.tally});
@@ -325,8 +325,11 @@ void DemSolver::load(const State& s) {
   restore("pairs.live", list_.liveArray());
   if (across_.used()) restore("across.history", across_.historyArray());
   restore("groups.moved", loop_.moved());
-  restore("walls.history", wallContacts_.historyArray());
-  restore("walls.feature", wallContacts_.featureArray());
+  get(s, "walls.history", histories);
+  if (!wallContacts_.setHistories(histories)) misfit("walls.history");
+  std::vector<std::int32_t> features;
+  get(s, "walls.feature", features);
+  if (!wallContacts_.setFeatures(features)) misfit("walls.feature");
   frozen_.capture(grains_);
   loop_.watch(frozen_.moving());
   if (frozen_.any()) {

@@ -48,7 +48,7 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
       parallel_(options.threads),
       list_(scene.domain, laws_.historySize(), laws_.outputStride(), laws_.hasEvents(), laws_.mixed()),
       pairForces_(laws_), wallContacts_(laws_), across_(laws_, scene.sector()),
-      loop_(grains_, list_, pairForces_, wallContacts_, across_, fields_, parallel_), frozen_(scene),
+      loop_(grains_, list_, pairForces_, wallContacts_, walls_, across_, fields_, parallel_), frozen_(scene),
       gravity_(scene.gravity), lives_(scene) {
   if (across_.used() && laws_.hasEvents())
     throw InputError("a wedge cannot be simulated with laws that move quantities from grain to grain across "
@@ -178,20 +178,15 @@ const DemSolver::FullStep& DemSolver::fullStep(bool withForces) const {
 void DemSolver::evaluate(std::vector<Quad>& force, std::vector<Quad>& torque) const {
   const TinyNumbersAsZero tiny;
   // What is evaluated here is evaluated once more by the next step: histories stay as they are.
-  const auto history = wallContacts_.historyArray();
-  const auto feature = wallContacts_.featureArray();
   const auto across = across_.historyArray();
   DeepestOverlap deepest;
   placeWalls(walls_, time(), dt_);
-  wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
   across_.step(grains_, dt_, parallel_, deepest);
   if (fields_.any()) fields_.look(grains_, list_, time(), parallel_);
   loop_.forces(dt_, gravity_, force, torque);
-  wallContacts_.historyArray() = history;
-  wallContacts_.featureArray() = feature;
   across_.historyArray() = across;
   auto tallied = walls_;
-  wallContacts_.tally(grains_, tallied, step_ == 0 ? 0.0 : dt_);
+  wallContacts_.tally(tallied, step_ == 0 ? 0.0 : dt_);
   atFullStep_.tallies.clear();
   for (const SolverWall& wall : tallied)
     atFullStep_.tallies.push_back(wall.tally);
@@ -268,12 +263,11 @@ void DemSolver::damp() {
 void DemSolver::stepOnce() {
   std::vector<PairEvent> events;
   DeepestOverlap deepest;
-  wallContacts_.step(grains_, walls_, dt_, parallel_, deepest);
   across_.step(grains_, dt_, parallel_, deepest);
-  wallContacts_.tally(grains_, walls_, step_ == 0 ? 0.0 : dt_); // the work since the step before
   if (fields_.any()) fields_.look(grains_, list_, time(), parallel_);
   const auto report =
       loop_.step(dt_, gravity_, scene_.accuracy.maximumTravel * smallestRadius_ / dt_, events, deepest);
+  wallContacts_.tally(walls_, step_ == 0 ? 0.0 : dt_); // the work since the step before
   checkOverlap(deepest);
   if (report.bad) reportBadMotion();
   if (!events.empty()) applyEvents(events);

@@ -20,6 +20,12 @@ PairForces::Scratch& scratchOfThread() {
   return scratch;
 }
 
+WallContacts::Sweep& wallsOfThread() {
+  thread_local WallContacts::Sweep sweep;
+  sweep.deepest = {};
+  return sweep;
+}
+
 } // namespace
 
 void ParticleLoop::bind() {
@@ -32,7 +38,7 @@ void ParticleLoop::bind() {
 }
 
 void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, double* ring,
-                            GroupSums& sums) const {
+                            WallContacts::Sweep& atWalls, GroupSums& sums) const {
   const std::int64_t first = g * group;
   const ParticleView& view = pairs_.view();
   const std::int64_t stride = list_.outputStride();
@@ -59,7 +65,7 @@ void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, double
     };
     view.mixed ? add(reinterpret_cast<const float*>(out)) : add(out);
   }
-  walls_.addTo(sums, grains_, first, last);
+  atWalls_.addTo(sums, grains_, walls_, first, last, atWalls);
   across_.addTo(sums, grains_, first, last);
 }
 
@@ -109,11 +115,14 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
   const Kernel& kernel = pairs_.kernel();
   parallel_.forRange(list_.chunks(), 1, [&](std::int64_t firstChunk, std::int64_t lastChunk) {
     PairForces::Scratch& scratch = scratchOfThread();
+    WallContacts::Sweep& atWalls = wallsOfThread();
     GroupSums sums;
     bool tired = false, wrong = false;
-    for (std::int64_t c = firstChunk; c < lastChunk; ++c)
+    for (std::int64_t c = firstChunk; c < lastChunk; ++c) {
+      const PairList::Range range = list_.chunkGrains(static_cast<int>(c));
+      atWalls_.begin(atWalls, grains_, walls_, range.begin, range.end, dt, false, atWalls_.tallied());
       sweep(static_cast<int>(c), dt, false, scratch, [&](std::int64_t g, std::int64_t last, double* ring) {
-        sumGroup(static_cast<int>(c), g, last, ring, sums);
+        sumGroup(static_cast<int>(c), g, last, ring, atWalls, sums);
         if (!watched_.empty()) keepWatched(g * group, last, sums);
         if (fields_.any())
           fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, true);
@@ -125,11 +134,13 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
         tired = tired || moved_[g] > allowed_[g];
         wrong = wrong || speeds.bad;
       });
+    }
     if (tired) late = true;
     if (wrong) bad = true;
     const std::lock_guard lock(merge);
     events_.insert(events_.end(), scratch.events.begin(), scratch.events.end());
-    deepest_.take(scratch.deepest.share, scratch.deepest.idA, scratch.deepest.idB, scratch.deepest.wall);
+    for (const DeepestOverlap& d : {atWalls.deepest, scratch.deepest})
+      deepest_.take(d.share, d.idA, d.idB, d.wall);
   });
   events.insert(events.end(), events_.begin(), events_.end());
   deepest.take(deepest_.share, deepest_.idA, deepest_.idB, deepest_.wall);
@@ -166,10 +177,13 @@ void ParticleLoop::forces(double dt, const Vec3& gravity, std::vector<Quad>& for
   crossing(dt, true);
   parallel_.forRange(list_.chunks(), 1, [&](std::int64_t firstChunk, std::int64_t lastChunk) {
     PairForces::Scratch& scratch = scratchOfThread();
+    WallContacts::Sweep& atWalls = wallsOfThread();
     GroupSums sums;
-    for (std::int64_t c = firstChunk; c < lastChunk; ++c)
+    for (std::int64_t c = firstChunk; c < lastChunk; ++c) {
+      const PairList::Range range = list_.chunkGrains(static_cast<int>(c));
+      atWalls_.begin(atWalls, grains_, walls_, range.begin, range.end, dt, true, true);
       sweep(static_cast<int>(c), dt, true, scratch, [&](std::int64_t g, std::int64_t last, double* ring) {
-        sumGroup(static_cast<int>(c), g, last, ring, sums);
+        sumGroup(static_cast<int>(c), g, last, ring, atWalls, sums);
         if (fields_.any())
           fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, false);
         for (std::int64_t i = g * group; i < last; ++i) {
@@ -182,6 +196,7 @@ void ParticleLoop::forces(double dt, const Vec3& gravity, std::vector<Quad>& for
             torque[i] = {r * s[4] + s[8], r * s[5] + s[9], r * s[6] + s[10], 0.0};
         }
       });
+    }
   });
   if (list_.live()) list_.liveArray() = live;
 }

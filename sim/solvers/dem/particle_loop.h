@@ -20,10 +20,11 @@ namespace sandglass {
 
 class ParticleLoop {
 public:
-  ParticleLoop(GrainStore& grains, PairList& list, PairForces& pairs, const WallContacts& walls,
-               const SectorContacts& across, FieldStack& fields, Parallel& parallel)
-      : grains_(grains), list_(list), pairs_(pairs), walls_(walls), across_(across), fields_(fields),
-        parallel_(parallel) {}
+  ParticleLoop(GrainStore& grains, PairList& list, PairForces& pairs, WallContacts& atWalls,
+               const std::vector<SolverWall>& walls, const SectorContacts& across, FieldStack& fields,
+               Parallel& parallel)
+      : grains_(grains), list_(list), pairs_(pairs), atWalls_(atWalls), walls_(walls), across_(across),
+        fields_(fields), parallel_(parallel) {}
 
   /// After a rebuild: grains of a group may move as far as `listed.w` of its first says.
   void bind();
@@ -32,12 +33,14 @@ public:
     bool late = false; ///< some group has moved as far as its list allows
     bool bad = false;  ///< a velocity component reached the limit or is not a number
   };
-  /// One step, with the forces that are in `walls` and `across`, and what `fields` have looked up.
+  /// One step, with the forces that are in `across`, and what `fields` have looked up. Walls stand where
+  /// placeWalls() has put them.
   Report step(double dt, const Vec3& gravity, double speedLimit, std::vector<PairEvent>& events,
               DeepestOverlap& deepest);
 
   /// Forces and torques at the present positions, which the next step of length dt begins with [N, N m], in
-  /// storage order; gravity left out. Pair outputs are overwritten, nothing else.
+  /// storage order; gravity left out. Walls know their loads then. Pair outputs are overwritten, nothing
+  /// else.
   void forces(double dt, const Vec3& gravity, std::vector<Quad>& force, std::vector<Quad>& torque);
 
   /// Storage indices, ascending, of grains whose contact forces are to be kept from each step, until the list
@@ -51,7 +54,8 @@ public:
 
 private:
   void keepWatched(std::int64_t first, std::int64_t last, const GroupSums& sums);
-  void sumGroup(int chunk, std::int64_t group, std::int64_t last, double* ring, GroupSums& sums) const;
+  void sumGroup(int chunk, std::int64_t group, std::int64_t last, double* ring, WallContacts::Sweep& atWalls,
+                GroupSums& sums) const;
   template <class Done>
   void sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done);
   void crossing(double dt, bool keepHistory);
@@ -59,7 +63,8 @@ private:
   GrainStore& grains_;
   PairList& list_;
   PairForces& pairs_;
-  const WallContacts& walls_;
+  WallContacts& atWalls_;
+  const std::vector<SolverWall>& walls_;
   const SectorContacts& across_;
   FieldStack& fields_;
   Parallel& parallel_;
