@@ -79,14 +79,19 @@ void PairForces::fillBlock(std::int64_t first, int count, double dt, ContactBloc
   kernel_.fill(view_, first, count, b, columns);
 }
 
-void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch,
-                          double* out) const {
+void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, double* out,
+                          std::int64_t ahead) const {
   constexpr int capacity = ContactBlock::capacity;
+  const char* records = nullptr;
+  if (ahead >= 0)
+    records = view_.mixed ? reinterpret_cast<const char*>(view_.mixed + ahead * 4 * view_.quads)
+                          : reinterpret_cast<const char*>(view_.records + ahead * 4 * view_.quads);
   for (std::int64_t first = range.begin; first < range.end;
        first += capacity, out += capacity * view_.outputStride) {
     const int count = static_cast<int>(std::min<std::int64_t>(capacity, range.end - first));
     if (fusedLoop_) {
-      if (fusedLoop_(view_, fused_, first, first + count, dt, keepHistory, out) <= overlapLength_) continue;
+      if (fusedLoop_(view_, fused_, first, first + count, dt, keepHistory, out, records) <= overlapLength_)
+        continue;
       fillBlock(first, count, dt, scratch.block, scratch.columns); // grains have not moved: who was it?
       reportOverlaps(first, scratch);
       continue;

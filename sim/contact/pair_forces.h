@@ -62,8 +62,10 @@ public:
   std::size_t bytes() const { return mixed_.bytes(); }
 
   /// Evaluates the pairs of a range that starts and ends at multiples of PairList::lane: outputs, which begin
-  /// at `out`, and, unless `keepHistory`, histories.
-  void evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, double* out) const;
+  /// at `out`, and, unless `keepHistory`, histories. `ahead`, if not below 0: the grain whose record and
+  /// following ones will be read soon, for the first time.
+  void evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, double* out,
+                std::int64_t ahead = -1) const;
 
   /// Energy stored in all contacts [J], with histories as the step of length dt would leave them.
   double storedEnergy(double dt) const;

@@ -185,6 +185,7 @@ void PairList::layOut() {
   quiet_.assign(static_cast<std::size_t>(historySize_ > 0 ? at : 0), 0);
   if (keepsLive_) makeRoom(now_.live, at, 1);
   groupEnd_.resize(static_cast<std::size_t>(now_.groups()));
+  groupReach_.resize(groupEnd_.size());
   for (const Range& pad : pads)
     fillPadding(pad.begin, pad.end);
 }
@@ -202,6 +203,7 @@ void PairList::fillPadding(std::int64_t from, std::int64_t to) {
 void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
   const bool carries = historySize_ > 0 || keepsLive_;
   const std::int64_t* id = grains.id.data();
+  const auto noShift = static_cast<std::uint8_t>(now_.codes.shift.size() / 2);
   parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
     PairOrder order;
     PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), grid_.wrapped(), historySize_, single_);
@@ -216,6 +218,7 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
         const std::int64_t* place =
             order.place({first, last, rowLength_.data() + first, partner, code, chunkEnd}, columns_, grains,
                         now_.codes.shift.data(), inside, crossing);
+        std::int64_t reach = last - 1;
         for (std::int64_t i = first; i < last; ++i) {
           const auto me = static_cast<std::int32_t>(i);
           const std::int64_t mine = id[i], length = rowLength_[i];
@@ -227,12 +230,17 @@ void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
             const int seen = code[k]; // turning a pair round mirrors its image
             now_.shiftOf[place[k]] = static_cast<std::uint8_t>(turned ? now_.codes.mirrored(seen) : seen);
           }
+          std::int64_t k = length; // partners ascend
+          while (k > 0 && (partner[k - 1] >= chunkEnd || (code && code[k - 1] != noShift)))
+            --k;
+          if (k > 0) reach = std::max<std::int64_t>(reach, partner[k - 1]);
           if (carries) carrier.carry(i, partner, length, place);
           partner += length;
           place += length;
           if (code) code += length;
         }
         groupEnd_[first / group] = inside;
+        groupReach_[first / group] = reach;
       }
     }
   });
@@ -274,10 +282,10 @@ std::int64_t PairList::imageKey(std::int64_t p, const GrainStore& grains) const 
 
 std::size_t PairList::bytes() const {
   std::size_t total = now_.bytes() + past_.bytes() + memory_.capacity() * sizeof(Quad) +
-                      groupEnd_.capacity() * sizeof(std::int64_t) + quiet_.capacity() + grid_.bytes() +
-                      rowLength_.capacity() * sizeof(std::int32_t) + filled_.capacity() +
-                      places_.capacity() * sizeof(std::int32_t) + lent_.capacity() * sizeof(Extra) +
-                      groupLent_.capacity() * sizeof(std::int32_t);
+                      (groupEnd_.capacity() + groupReach_.capacity()) * sizeof(std::int64_t) +
+                      quiet_.capacity() + grid_.bytes() + rowLength_.capacity() * sizeof(std::int32_t) +
+                      filled_.capacity() + places_.capacity() * sizeof(std::int32_t) +
+                      lent_.capacity() * sizeof(Extra) + groupLent_.capacity() * sizeof(std::int32_t);
   for (const Block& block : blocks_)
     total += block.rows.bytes();
   return total;

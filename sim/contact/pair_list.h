@@ -81,6 +81,9 @@ public:
   /// Where in its chunk's pairs the rows of a group of grains end: a pair index, not padded. The first group
   /// of a chunk begins at chunkPairs(c).begin. g = index / group.
   std::int64_t groupEnd(std::int64_t g) const { return groupEnd_[g]; }
+  /// The last grain of its chunk that the rows of a group name, images around the box left out: where a sweep
+  /// meets records for the first time.
+  std::int64_t groupReach(std::int64_t g) const { return groupReach_[g]; }
 
   // Per grain: what its contacts give. Outputs of a chunk's own pairs stand in a ring while the chunk is
   // swept from its first pair on, blocks of 64 pairs at a time: pair p at (p - chunkPairs(c).begin) modulo
@@ -175,7 +178,7 @@ private:
   Range crossing_;
   std::vector<Range> chunkGrains_, chunkPairs_,
       chunkCrossing_; ///< the last: crossing rows of a chunk's grains
-  std::vector<std::int64_t> groupEnd_;
+  std::vector<std::int64_t> groupEnd_, groupReach_;
   std::vector<std::uint8_t> quiet_;
 
   // Of use during a build alone; kept because asking for memory anew costs more than the search.

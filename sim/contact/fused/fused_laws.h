@@ -33,9 +33,10 @@ struct FusedLaws {
 };
 
 /// Evaluates pairs first .. last - 1, multiples of 8 and no more than a block: outputs, which begin at `out`,
-/// and, unless `keepHistory`, histories. Returns the deepest overlap [m].
+/// and, unless `keepHistory`, histories. Returns the deepest overlap [m]. `ahead`, if not null: records that
+/// rows soon to come will read for the first time; a share of them is fetched into the cache, and histories.
 using FusedLoop = double (*)(const ParticleView&, const FusedLaws&, std::int64_t first, std::int64_t last,
-                             double dt, bool keepHistory, double* out);
+                             double dt, bool keepHistory, double* out, const char* ahead);
 
 /// Null where the combination has no loop of this width.
 FusedLoop fusedLoopAvx2(const FusedLaws& laws);

@@ -82,10 +82,26 @@ void rest(const ParticleView& v, std::int64_t p, bool keepHistory, double* out) 
   W::template clear<outputQuads>(out);
 }
 
+/// Asks for the histories of a block further on and for the records that about as many pairs will need for
+/// the first time, three a grain; returns where the next begin. A processor foresees both by itself, but anew
+/// from each page on. A few lines at a time: asked for all at once, they hold up whatever else is read.
+template <class W, bool turning, int historySize>
+SANDGLASS_LOOP const char* fetch(const ParticleView& v, std::int64_t p, const char* ahead) {
+  constexpr int line = 64, record = W::quad * (turning ? 3 : 2) * static_cast<int>(sizeof(double));
+  constexpr int lines = (W::lanes * record + 3 * line - 1) / (3 * line);
+  for (int k = 0; turning && k < historySize; ++k)
+    __builtin_prefetch(historyOf<historySize, typename W::Real>(v, p + ContactBlock::capacity) +
+                           ParticleView::lane * k,
+                       1, 2);
+  for (int k = 0; k < lines; ++k)
+    __builtin_prefetch(ahead + k * line, 1, 2);
+  return ahead + lines * line;
+}
+
 template <class W, FusedLaws::Normal kind, bool turning, bool project, Dashpot dashpot,
           FusedLaws::Rolling rolling = FusedLaws::Rolling::none>
 double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t first, std::int64_t last,
-                 double dt, bool keepHistory, double* out) {
+                 double dt, bool keepHistory, double* out, const char* ahead) {
   using V = typename W::V;
   using Real = typename W::Real;
   using A = typename W::Arithmetic;
@@ -129,6 +145,7 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
   for (int c = 0; c < count; c += W::lanes) {
     const Ahead now = next;
     if (c + W::lanes < count) begin(c + W::lanes, next);
+    if (ahead) ahead = fetch<W, turning, historySize>(v, first + c, ahead);
     if (!now.near) {
       rest<W, turning, historySize, outputQuads>(v, first + c, keepHistory, out + c * stride);
       continue;

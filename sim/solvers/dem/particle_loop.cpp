@@ -11,6 +11,8 @@ namespace sandglass {
 namespace {
 
 constexpr int group = PairList::group;
+/// So many groups before their turn records are fetched.
+constexpr std::int64_t groupsAhead = 2;
 
 /// Blocks are large; one set a thread, kept.
 PairForces::Scratch& scratchOfThread() {
@@ -78,11 +80,15 @@ void ParticleLoop::sweep(int chunk, double dt, bool keepHistory, PairForces::Scr
   std::fill_n(scratch.ring.begin() + list_.window() * stride, stride, 0.0);
   std::int64_t next = pairs.begin;
   for (std::int64_t first = grains.begin; first < grains.end; first += group) {
-    const std::int64_t g = first / group;
+    const std::int64_t g = first / group, last = (grains.end - 1) / group, begin = next;
+    // Rows of this group stand for those that are `groupsAhead`, and reach as evenly from one to the next.
+    const std::int64_t from = list_.groupReach(std::min(g + groupsAhead, last));
+    const std::int64_t to = list_.groupReach(std::min(g + groupsAhead + 1, last));
     while (next < list_.groupEnd(g)) {
       const std::int64_t end = std::min(next + ContactBlock::capacity, pairs.end);
       pairs_.evaluate({next, end}, dt, keepHistory, scratch,
-                      scratch.ring.data() + ((next - pairs.begin) & mask) * stride);
+                      scratch.ring.data() + ((next - pairs.begin) & mask) * stride,
+                      from + (to - from) * (next - begin) / (list_.groupEnd(g) - begin));
       next = end;
     }
     done(g, std::min(first + group, grains.end), scratch.ring.data());
