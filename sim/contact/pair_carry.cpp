@@ -49,6 +49,8 @@ void PairCarrier::carry(std::int64_t i, const std::int32_t* partners, std::int64
     carryRow<-1, float>(row, partners, count, places);
   else if (historySize_ == 3)
     carryRow<3, double>(row, partners, count, places);
+  else if (historySize_ == 6)
+    carryRow<6, double>(row, partners, count, places);
   else
     carryRow<-1, double>(row, partners, count, places);
 }

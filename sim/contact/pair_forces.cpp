@@ -3,6 +3,8 @@
 #include "sim/base/error.h"
 #include "sim/contact/mixed/mixed_loops.h"
 
+#include <array>
+
 namespace sandglass {
 
 void PairForces::watchOverlap(double share, double smallestRadius) {
@@ -53,20 +55,52 @@ void PairForces::refresh() {
   if (view_.mixed) MixedRecords::refresh(kernel_, view_, static_cast<std::int64_t>(grains_->size()));
 }
 
+/// Several materials: makes the tables of constants; false where there are too many.
+bool PairForces::bindTables() {
+  std::vector<int> known; // materials of grains
+  std::array<std::uint8_t, 256> placeOf{};
+  for (std::size_t i = 0; i < grains_->size(); ++i) {
+    const std::uint8_t m = grains_->material[i];
+    if (std::find(known.begin(), known.end(), m) != known.end()) continue;
+    if (known.size() == FusedTables::materials) return false;
+    placeOf[m] = static_cast<std::uint8_t>(known.size());
+    known.push_back(m);
+  }
+  const auto place = [&](int a, int b) {
+    return static_cast<std::uint8_t>(placeOf[a] * FusedTables::materials + placeOf[b]);
+  };
+  for (const int a : known)
+    for (const int b : known) {
+      FusedLaws laws;
+      laws.type = laws_.typeOf(a, b);
+      for (const auto& entry : laws_.entries())
+        entry.law->fuse(laws);
+      tables_.put(place(a, b), laws);
+    }
+  placeOfPair_.resize(static_cast<std::size_t>(list_->entries()));
+  for (std::size_t p = 0; p < placeOfPair_.size(); ++p) {
+    const auto [a, b] = list_->pairs()[p];
+    placeOfPair_[p] = place(grains_->material[a], grains_->material[b]);
+  }
+  fused_.tables = &tables_;
+  fused_.placeOfPair = placeOfPair_.data();
+  return true;
+}
+
 void PairForces::pickLoop(int material) {
   fused_ = laws_.fused(material);
   fusedLoop_ = nullptr;
   const bool linear =
       fused_.normal == FusedLaws::Normal::linear || fused_.normal == FusedLaws::Normal::linearOfMass;
-  const bool possible = view_.oneMaterial && !view_.sumsOverlaps;
+  const bool possible = !view_.sumsOverlaps;
   if (laws_.mixed()) {
-    fusedLoop_ = possible && (linear || view_.oneRadius > 0.0)
+    fusedLoop_ = possible && view_.oneMaterial && (linear || view_.oneRadius > 0.0)
                      ? mixedLoop(fused_, laws_.width(), laws_.fastArithmetic())
                      : nullptr;
     if (!fusedLoop_ && grains_->size() > 0) throw InputError(LawStack::mixedRule);
     return;
   }
-  if (!possible) return;
+  if (!possible || (!view_.oneMaterial && !bindTables())) return;
   if (fused_.normal == FusedLaws::Normal::hertz && view_.oneRadius == 0.0)
     fused_.normal = FusedLaws::Normal::hertzOfSize;
   if (laws_.width() == KernelWidth::avx512) fusedLoop_ = fusedLoopAvx512(fused_, laws_.fastArithmetic());

@@ -59,7 +59,7 @@ public:
   const Kernel& kernel() const { return kernel_; }
   /// Under mixed precision: grains have moved otherwise than by the kernel.
   void refresh();
-  std::size_t bytes() const { return mixed_.bytes(); }
+  std::size_t bytes() const { return mixed_.bytes() + placeOfPair_.size(); }
 
   /// Evaluates the pairs of a range that starts and ends at multiples of PairList::lane: outputs, which begin
   /// at `out`, and, unless `keepHistory`, histories. `ahead`, if not below 0: the grain whose record and
@@ -76,6 +76,7 @@ public:
 
 private:
   void pickLoop(int material);
+  bool bindTables();
   void fillBlock(std::int64_t first, int count, double dt, ContactBlock& b, PairColumns& columns) const;
   void applyLaws(std::int64_t first, Scratch& scratch) const;
   void leaveRange(std::int64_t first, const double (*before)[ContactBlock::capacity], Scratch& scratch) const;
@@ -84,7 +85,9 @@ private:
   const LawStack& laws_;
   Kernel kernel_{};
   FusedLaws fused_;
-  FusedLoop fusedLoop_ = nullptr; ///< in place of the laws one by one
+  FusedTables tables_;
+  std::vector<std::uint8_t> placeOfPair_; ///< in the tables
+  FusedLoop fusedLoop_ = nullptr;         ///< in place of the laws one by one
   ParticleView view_;
   MixedRecords mixed_;
   GrainStore* grains_ = nullptr;

@@ -34,6 +34,14 @@ struct Width256 {
     }
     return out;
   }
+  using Places = __m128i; ///< in a table of constants
+  SANDGLASS_LOOP static Places placesOfPairs(const std::uint8_t* at) {
+    return _mm_cvtepu8_epi32(_mm_loadu_si32(at));
+  }
+  SANDGLASS_LOOP static V lookUp(const double (&row)[FusedTables::places], Places places) {
+    const V all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
+    return _mm256_mask_i32gather_pd(all, row, places, all, 8); // gcc 12 warns of the gather without a mask
+  }
   SANDGLASS_LOOP static V read(const double* from) { return _mm256_loadu_pd(from); }
   SANDGLASS_LOOP static void write(double* to, V value) { _mm256_storeu_pd(to, value); }
   template <int quads> SANDGLASS_LOOP static void clear(double* out) {

@@ -34,6 +34,13 @@ template <class A> struct Width512 {
     }
     return out;
   }
+  using Places = __m512i; ///< in a table of constants
+  SANDGLASS_LOOP static Places placesOfPairs(const std::uint8_t* at) {
+    return _mm512_cvtepu8_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at)));
+  }
+  SANDGLASS_LOOP static V lookUp(const double (&row)[FusedTables::places], Places places) {
+    return _mm512_permutex2var_pd(_mm512_load_pd(row), places, _mm512_load_pd(row + 8));
+  }
   SANDGLASS_LOOP static V read(const double* from) { return _mm512_loadu_pd(from); }
   SANDGLASS_LOOP static void write(double* to, V value) { _mm512_storeu_pd(to, value); }
   template <int quads> SANDGLASS_LOOP static void clear(double* out) {

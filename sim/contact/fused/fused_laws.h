@@ -1,7 +1,7 @@
 #pragma once
 // Combinations of laws that have a loop of their own, from grain records to outputs without columns in
 // between. They give the same bits as the laws one after the other, and exist for the combinations that
-// `bench core` shows to be worth it: one pair of materials, a linear or Hertz normal law, alone or with a
+// `bench core` shows to be worth it: grains of few materials, a linear or Hertz normal law, alone or with a
 // tangential spring, and with rolling resistance on top of it.
 
 #include "sim/contact/laws/hertz_formula.h"
@@ -13,6 +13,8 @@
 #include <cstdint>
 
 namespace sandglass {
+
+struct FusedTables;
 
 /// What a law says to be fused; a law that says nothing is not.
 struct FusedLaws {
@@ -30,6 +32,21 @@ struct FusedLaws {
   HertzConstants<double> hertz;
   SpringConstants<double> spring;
   RollingConstants<double> couple;
+  /// Null where all grains are of one material. Else constants are looked up, by the place of each pair of
+  /// grains in the tables.
+  const FusedTables* tables = nullptr;
+  const std::uint8_t* placeOfPair = nullptr;
+};
+
+/// The constants of all laws, for each pair of materials that grains have.
+struct FusedTables {
+  static constexpr int materials = 4, places = materials * materials;
+  template <class Constants> static constexpr int fields = sizeof(Constants) / sizeof(double);
+  alignas(64) double linear[fields<LinearConstants<double>>][places];
+  alignas(64) double hertz[fields<HertzConstants<double>>][places];
+  alignas(64) double spring[fields<SpringConstants<double>>][places];
+  alignas(64) double couple[fields<RollingConstants<double>>][places];
+  void put(int place, const FusedLaws& laws);
 };
 
 /// Evaluates pairs first .. last - 1, multiples of 8 and no more than a block: outputs, which begin at `out`,

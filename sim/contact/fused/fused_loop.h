@@ -9,10 +9,13 @@
 #include "sim/contact/laws/narrowed.h"
 
 #include <type_traits>
+#include <utility>
 
 namespace sandglass {
 
 namespace {
+
+struct Nothing {};
 
 /// What the passes over a block hand on. Three passes with short chains of dependent operations are a quarter
 /// faster than one with a long chain, of which a processor sees no more than two turns at a time.
@@ -29,7 +32,6 @@ template <class Real> struct StagedRolling {
   alignas(64) Real spinX[capacity], spinY[capacity], spinZ[capacity], radius[capacity], inverse[capacity];
   alignas(64) Real load[capacity], stiffness[capacity];
 };
-struct NothingStaged {};
 
 /// Of pairs: differences of velocities and spins, sums of radius times spin, of 1/mass, of 1/radius and of
 /// rollingInverse(). Those that no law of a combination reads are left out.
@@ -59,6 +61,42 @@ template <class W, class Real> SANDGLASS_LOOP void writeVector(Real* at, const V
   W::write(at + lane, s.y);
   W::write(at + 2 * lane, s.z);
 }
+
+/// The constants of a law for a register of pairs: the same for all, or, among grains of several materials,
+/// looked up.
+using ConstantRows = const double (*)[FusedTables::places];
+template <class W, template <class> class Constants, bool several> struct ConstantsOf {
+  Constants<typename W::Real> one;
+  ConstantsOf(const Constants<double>& c, ConstantRows)
+      : one(narrowed<Constants<typename W::Real>, typename W::Real>(c)) {}
+  SANDGLASS_LOOP const auto& at(Nothing) const { return one; }
+};
+template <class W, template <class> class Constants> struct ConstantsOf<W, Constants, true> {
+  ConstantRows rows;
+  ConstantsOf(const Constants<double>&, ConstantRows rows) : rows(rows) {}
+  SANDGLASS_LOOP auto at(typename W::Places places) const {
+    constexpr int count = FusedTables::fields<Constants<double>>;
+    return each(places, std::make_index_sequence<count>());
+  }
+  template <std::size_t... k>
+  SANDGLASS_LOOP auto each(typename W::Places places, std::index_sequence<k...>) const {
+    return Constants<typename W::V>{W::lookUp(rows[k], places)...};
+  }
+};
+
+template <class W, bool several> SANDGLASS_LOOP auto placesOfPairs(const FusedLaws& laws, std::int64_t p) {
+  if constexpr (several)
+    return W::placesOfPairs(laws.placeOfPair + p);
+  else
+    return Nothing{};
+}
+
+/// Arithmetic for constants that are registers themselves.
+template <class Base> struct WithRegisters : Base {
+  using V = typename Base::V;
+  template <class> SANDGLASS_LOOP static V all(double a) { return Base::template all<V>(a); }
+  template <class> SANDGLASS_LOOP static V all(V a) { return a; }
+};
 
 /// Reach of pairs in double precision.
 template <class A, class V> struct SumOfRadii {
@@ -99,30 +137,32 @@ SANDGLASS_LOOP const char* fetch(const ParticleView& v, std::int64_t p, const ch
 }
 
 template <class W, FusedLaws::Normal kind, bool turning, bool project, Dashpot dashpot,
-          FusedLaws::Rolling rolling = FusedLaws::Rolling::none>
+          FusedLaws::Rolling rolling = FusedLaws::Rolling::none, bool several = false>
 double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t first, std::int64_t last,
                  double dt, bool keepHistory, double* out, const char* ahead) {
   using V = typename W::V;
   using Real = typename W::Real;
-  using A = typename W::Arithmetic;
+  using A = std::conditional_t<several, WithRegisters<typename W::Arithmetic>, typename W::Arithmetic>;
   using Normal = FusedLaws::Normal;
   using Rolling = FusedLaws::Rolling;
   constexpr bool hertzian = kind == Normal::hertz || kind == Normal::hertzOfSize;
   constexpr bool massive = kind == Normal::linearOfMass || hertzian || dashpot == Dashpot::rate;
   constexpr bool rolls = rolling != Rolling::none, sized = kind == Normal::hertzOfSize || rolls;
   constexpr int historySize = historySizeOf(rolling);
-  const auto linear = narrowed<LinearConstants<Real>, Real>(laws.linear);
-  const auto hertz = narrowed<HertzConstants<Real>, Real>(laws.hertz);
-  const auto spring = narrowed<SpringConstants<Real>, Real>(laws.spring);
-  const auto couple = narrowed<RollingConstants<Real>, Real>(laws.couple);
+  const FusedTables* t = laws.tables;
+  const ConstantsOf<W, LinearConstants, several> linears(laws.linear, several ? t->linear : nullptr);
+  const ConstantsOf<W, HertzConstants, several> hertzes(laws.hertz, several ? t->hertz : nullptr);
+  const ConstantsOf<W, SpringConstants, several> springs(laws.spring, several ? t->spring : nullptr);
+  const ConstantsOf<W, RollingConstants, several> couples(laws.couple, several ? t->couple : nullptr);
   constexpr int outputQuads = rolls ? 3 : turning ? 2 : 1, stride = W::quad * outputQuads;
   const V zero = A::template all<V>(0.0), one = A::template all<V>(1.0);
   const V oneRadius = A::template all<V>(1.0 / (1.0 / v.oneRadius + 1.0 / v.oneRadius));
-  const bool anyRadius = kind == Normal::hertzOfSize || (couple.coefficient != 0 && v.oneRadius == 0.0);
+  const bool anyRadius =
+      kind == Normal::hertzOfSize || ((several || laws.couple.coefficient != 0.0) && v.oneRadius == 0.0);
   const bool radiusArm = laws.radiusArm;
   const int count = static_cast<int>(last - first);
   Staged<Real> b;
-  std::conditional_t<rolls, StagedRolling<Real>, NothingStaged> r;
+  std::conditional_t<rolls, StagedRolling<Real>, Nothing> r;
   V deepest = zero;
   // Roots and quotients take long: those of the next pairs are begun before these are used.
   struct Ahead {
@@ -151,6 +191,10 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       continue;
     }
     active[actives++] = c;
+    // Those of groups in touch alone are read, too irregular a stream for the processor to foresee.
+    if constexpr (turning)
+      for (int k = 0; k < historySize; ++k)
+        __builtin_prefetch(historyOf<historySize, Real>(v, first + c) + k * ParticleView::lane, 1);
     const Vector3<V> n = times(now.inverse, now.apart);
     const V overlap = now.reach.overlap(now.distance);
     deepest = A::larger(deepest, overlap);
@@ -192,6 +236,9 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
     V mass = zero;
     if constexpr (massive) mass = W::read(b.mass + c);
     NormalForce<V> normal;
+    const auto places = placesOfPairs<W, several>(laws, p);
+    const auto& linear = linears.at(places);
+    const auto& hertz = hertzes.at(places);
     if constexpr (kind == Normal::linear)
       normal = linearForce<A>(linear, A::template all<V>(linear.gamma), overlap, vn);
     else if constexpr (kind == Normal::linearOfMass)
@@ -211,8 +258,8 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       Real* history = historyOf<historySize, Real>(v, p);
       Vector3<V> s = readVector<W>(history);
       const Vector3<V> slip{W::read(b.slipX + c), W::read(b.slipY + c), W::read(b.slipZ + c)};
-      const Vector3<V> ft =
-          springForce<A, project, dashpot>(spring, n, slip, overlap, normal, mass, static_cast<Real>(dt), s);
+      const Vector3<V> ft = springForce<A, project, dashpot>(springs.at(places), n, slip, overlap, normal,
+                                                             mass, static_cast<Real>(dt), s);
       if (!keepHistory) {
         v.quiet[p / W::lanes] = 0;
         writeVector<W>(history, s);
@@ -231,8 +278,10 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
                                 W::read(b.radius + c),
                                 W::read(r.inverse + c)};
       const V overlap = W::read(b.overlap + c), load = W::read(r.load + c);
+      const auto places = placesOfPairs<W, several>(laws, first + c);
+      const auto& couple = couples.at(places);
       if constexpr (rolling == Rolling::elasticPlastic) {
-        V stiffness = A::template all<V>(linear.k);
+        V stiffness = A::template all<V>(linears.at(places).k);
         if (hertzian) stiffness = W::read(r.stiffness + c);
         Real* history = historyOf<historySize, Real>(v, first + c) + 3 * ParticleView::lane;
         Vector3<V> angle = readVector<W>(history);
@@ -280,23 +329,23 @@ template <class W> FusedLoop pickFusedLoop(const FusedLaws& laws) {
   return nullptr;
 }
 
-/// The loop of a spring with rolling resistance, or null.
-template <class W, FusedLaws::Rolling rolling> FusedLoop pickRollingLoop(const FusedLaws& laws) {
+/// The loop of a spring, perhaps with rolling resistance, among grains of one or several materials, or null.
+template <class W, FusedLaws::Rolling rolling, bool several> FusedLoop pickSpringLoop(const FusedLaws& laws) {
   using Normal = FusedLaws::Normal;
   constexpr Dashpot none = Dashpot::none, coefficient = Dashpot::coefficient;
   if (laws.tangential != FusedLaws::Tangential::spring || laws.project) return nullptr;
   if (laws.normal == Normal::linear && laws.dashpot == none)
-    return fusedLoop<W, Normal::linear, true, false, none, rolling>;
+    return fusedLoop<W, Normal::linear, true, false, none, rolling, several>;
   if (laws.normal == Normal::linear && laws.dashpot == coefficient)
-    return fusedLoop<W, Normal::linear, true, false, coefficient, rolling>;
+    return fusedLoop<W, Normal::linear, true, false, coefficient, rolling, several>;
   if (laws.normal == Normal::linearOfMass && laws.dashpot == none)
-    return fusedLoop<W, Normal::linearOfMass, true, false, none, rolling>;
+    return fusedLoop<W, Normal::linearOfMass, true, false, none, rolling, several>;
   if (laws.normal == Normal::linearOfMass && laws.dashpot == coefficient)
-    return fusedLoop<W, Normal::linearOfMass, true, false, coefficient, rolling>;
+    return fusedLoop<W, Normal::linearOfMass, true, false, coefficient, rolling, several>;
   if (laws.normal == Normal::hertz && laws.dashpot == coefficient)
-    return fusedLoop<W, Normal::hertz, true, false, coefficient, rolling>;
+    return fusedLoop<W, Normal::hertz, true, false, coefficient, rolling, several>;
   if (laws.normal == Normal::hertzOfSize && laws.dashpot == coefficient)
-    return fusedLoop<W, Normal::hertzOfSize, true, false, coefficient, rolling>;
+    return fusedLoop<W, Normal::hertzOfSize, true, false, coefficient, rolling, several>;
   return nullptr;
 }
 
@@ -304,8 +353,20 @@ template <class W, FusedLaws::Rolling rolling> FusedLoop pickRollingLoop(const F
 template <class W> FusedLoop pickDoubleLoop(const FusedLaws& laws) {
   using Normal = FusedLaws::Normal;
   using Rolling = FusedLaws::Rolling;
-  if (laws.rolling == Rolling::elasticPlastic) return pickRollingLoop<W, Rolling::elasticPlastic>(laws);
-  if (laws.rolling == Rolling::constantTorque) return pickRollingLoop<W, Rolling::constantTorque>(laws);
+  if (laws.tables) {
+    if (laws.tangential == FusedLaws::Tangential::none)
+      return laws.normal == Normal::linear
+                 ? fusedLoop<W, Normal::linear, false, false, Dashpot::none, Rolling::none, true>
+             : laws.normal == Normal::linearOfMass
+                 ? fusedLoop<W, Normal::linearOfMass, false, false, Dashpot::none, Rolling::none, true>
+                 : nullptr;
+    return laws.rolling == Rolling::none             ? pickSpringLoop<W, Rolling::none, true>(laws)
+           : laws.rolling == Rolling::elasticPlastic ? pickSpringLoop<W, Rolling::elasticPlastic, true>(laws)
+           : laws.rolling == Rolling::constantTorque ? pickSpringLoop<W, Rolling::constantTorque, true>(laws)
+                                                     : nullptr;
+  }
+  if (laws.rolling == Rolling::elasticPlastic) return pickSpringLoop<W, Rolling::elasticPlastic, false>(laws);
+  if (laws.rolling == Rolling::constantTorque) return pickSpringLoop<W, Rolling::constantTorque, false>(laws);
   if (laws.normal == Normal::hertzOfSize && laws.tangential == FusedLaws::Tangential::spring &&
       laws.dashpot == Dashpot::coefficient && !laws.project && laws.rolling == Rolling::none)
     return fusedLoop<W, Normal::hertzOfSize, true, false, Dashpot::coefficient>;

@@ -9,6 +9,7 @@
 //   any(mask)                  whether it holds anywhere
 //   pick(mask, a, b)           mask ? a : b
 //   all<V>(number)            the number in every place
+// Constants of a law are single numbers, or registers too where each pair has its own.
 //   larger(a, b)               a < b ? b : a, as std::max has it, NaN included
 // An exact policy gives the bits of IEEE arithmetic, whatever the width.
 

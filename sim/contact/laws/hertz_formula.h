@@ -20,7 +20,8 @@ SANDGLASS_LOOP NormalForce<V> hertzForce(const HertzConstants<Real>& c, V overla
   V gamma = c.time * S;
   if constexpr (masses) gamma += c.rate * (S * mass);
   if constexpr (tsuji) gamma += c.tsuji * A::root(S * mass);
-  const V force = A::larger(A::fnma(gamma, vn, Real(2.0 / 3.0) * S * x), A::template all<V>(c.floor));
+  const V force =
+      A::larger(A::fnma(gamma, vn, A::template all<V>(2.0 / 3.0) * S * x), A::template all<V>(c.floor));
   return {force, A::larger(force, zero), S, gamma};
 }
 

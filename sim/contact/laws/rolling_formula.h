@@ -29,13 +29,13 @@ SANDGLASS_LOOP Vector3<V> acrossNormal(const Vector3<V>& n, const Vector3<V>& sp
 }
 
 /// Moves the rolling angle on by a step; returns the couple on a. Without touch neither couple nor angle.
-template <class A, class Real, class V>
-SANDGLASS_LOOP Vector3<V> elasticPlasticCouple(const RollingConstants<Real>& c, const Vector3<V>& n,
+template <class A, class Constant, class Real, class V>
+SANDGLASS_LOOP Vector3<V> elasticPlasticCouple(const RollingConstants<Constant>& c, const Vector3<V>& n,
                                                const RollingPair<V>& pair, V overlap, V load, V stiffness,
                                                Real dt, Vector3<V>& angle) {
   const V zero = A::template all<V>(0), one = A::template all<V>(1);
   const V length = c.length + c.coefficient * pair.radius;
-  const V k = Real(2.25) * stiffness * length * length, limit = length * load;
+  const V k = A::template all<V>(2.25) * stiffness * length * length, limit = length * load;
   Vector3<V> turned = plus<A>(acrossNormal<A>(n, angle), A::template all<V>(dt), pair.spin);
   const Vector3<V> elastic = times(k, turned);
   const V elastic2 = dot<A>(elastic, elastic);
@@ -44,15 +44,15 @@ SANDGLASS_LOOP Vector3<V> elasticPlasticCouple(const RollingConstants<Real>& c, 
   const V scale = A::pick(yields, A::overRoot(limit, elastic2, size, A::both(touches, yields)), one);
   turned = times(scale, turned);
   // Moment of inertia of the pair about the contact: 1/I = sum of 1/(7/5 m r^2).
-  const V critical = 2 * c.damping * A::root(A::over(Real(1.4) * k, pair.inverse));
+  const V critical = 2 * c.damping * A::root(A::over(A::template all<V>(1.4) * k, pair.inverse));
   const V dashpot = A::pick(yields, zero, critical);
   angle = where<A>(touches, turned);
   return where<A>(touches, minus<A>(times(-k, turned), dashpot, pair.spin));
 }
 
 /// The couple on a; `most`: what stops a spin of 1/s, times the sum of 1/(m r^2) [1/s].
-template <class A, class Real, class V>
-SANDGLASS_LOOP Vector3<V> constantCouple(const RollingConstants<Real>& c, const RollingPair<V>& pair,
+template <class A, class Constant, class Real, class V>
+SANDGLASS_LOOP Vector3<V> constantCouple(const RollingConstants<Constant>& c, const RollingPair<V>& pair,
                                          V overlap, V load, Real most) {
   const V zero = A::template all<V>(0);
   const V limit = (c.length + c.coefficient * pair.radius) * load, spin2 = dot<A>(pair.spin, pair.spin);

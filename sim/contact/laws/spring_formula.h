@@ -17,8 +17,8 @@ enum class Dashpot { none, coefficient, rate };
 
 /// Moves the spring `s` on by a step under the slip velocity `v` at a contact with normal `n`; returns the
 /// force on a. Without touch neither force nor spring.
-template <class A, bool project, Dashpot dashpot, class Real, class V>
-SANDGLASS_LOOP Vector3<V> springForce(const SpringConstants<Real>& c, const Vector3<V>& n,
+template <class A, bool project, Dashpot dashpot, class Constant, class Real, class V>
+SANDGLASS_LOOP Vector3<V> springForce(const SpringConstants<Constant>& c, const Vector3<V>& n,
                                       const Vector3<V>& v, V overlap, const NormalForce<V>& normal, V mass,
                                       Real dt, Vector3<V>& s) {
   const V zero = A::template all<V>(0), one = A::template all<V>(1);
