@@ -13,6 +13,9 @@ namespace sandglass::bench {
 namespace {
 constexpr double stiffness = 2e5, dampingRate = 50, frictionCoefficient = 0.5;
 constexpr double degree = std::numbers::pi / 180;
+/// For LAMMPS and its relative.
+constexpr const char* heldFast = "group bottom type 2\nneigh_modify exclude group bottom bottom\n"
+                                 "fix hold bottom freeze\n";
 } // namespace
 
 peers::HookeHistory standardCoefficients(bool friction) {
@@ -32,8 +35,9 @@ normal = {{ law = "linear", stiffness = "{:.17g} N/m", {} }}
 tangential = {}
 )",
         with, stiffness,
-        clamped ? fmt::format("damping_rate = \"{:.17g} 1/s\", clamp_attraction = true", dampingRate)
-                : fmt::format("restitution = {:.17g}", e),
+        clamped || rough ? fmt::format("damping_rate = \"{:.17g} 1/s\"{}", dampingRate,
+                                       clamped ? ", clamp_attraction = true" : "")
+                         : fmt::format("restitution = {:.17g}", e),
         friction ? fmt::format(R"({{ law = "spring", friction = {}, rotation = "project", arm = "radius" }})",
                                frictionCoefficient)
                  : R"({ law = "none" })");
@@ -56,10 +60,10 @@ name = "floor"
 name = "bead"
 material = "bead"
 size = {{ distribution = "single", diameter = "1 m" }}
-{}
+{}{}
 [[fill]]
 kind = "list"
-grains = [{{ position = ["0.6 m", "0.6 m", "0.6 m"] }}]
+grains = [{{ species = "bead", position = ["0.6 m", "0.6 m", "0.6 m"] }}]
 [[stage]]
 name = "run"
 until = {{ duration = "1 s" }}
@@ -69,14 +73,21 @@ time_step = "{:.17g} s"
                                 gravity * std::sin(angle * degree), -gravity * std::cos(angle * degree),
                                 floor ? -1 : 0, width, breadth, height, floor ? "" : ", \"z\"",
                                 contact("bead", 0.5 * mass), contact("floor", mass),
-                                floor ? R"([[wall]]
+                                rough ? R"([[species]]
+name = "bottom"
+material = "bead"
+size = { distribution = "single", diameter = "1 m" }
+frozen = true
+)"
+                                      : "",
+                                floor && !rough ? R"([[wall]]
 name = "floor"
 kind = "plane"
 material = "floor"
 point = ["0", "0", "0"]
 normal = [0, 0, 1]
 )"
-                                      : "",
+                                                : "",
                                 timeStep),
                     "bench", knobs);
 }
@@ -87,9 +98,10 @@ std::string Beads::lammpsDeck(std::int64_t look) const {
   // The skin is the one that the benchmark has.
   deck += fmt::format("pair_style {}\npair_coeff * *\nneighbor 0.1 bin\nneigh_modify every 1 delay 0\n"
                       "timestep {:.17g}\nfix weight all gravity {:.17g} vector {:.17g} 0 {:.17g}\n"
-                      "fix motion all nve/sphere\n",
-                      c.words(), timeStep, gravity, std::sin(angle * degree), -std::cos(angle * degree));
-  if (floor) deck += fmt::format("fix floor all wall/gran {} zplane 0 NULL\n", c.wallWords());
+                      "fix motion all nve/sphere\n{}",
+                      c.words(), timeStep, gravity, std::sin(angle * degree), -std::cos(angle * degree),
+                      rough ? heldFast : "");
+  if (floor && !rough) deck += fmt::format("fix floor all wall/gran {} zplane 0 NULL\n", c.wallWords());
   return deck + fmt::format("compute kinetic all ke\nthermo_style custom step atoms c_kinetic\n"
                             "thermo_modify norm no format float %.17g\nthermo {}\n",
                             look);
@@ -101,18 +113,23 @@ std::string Beads::liggghtsDeck(std::int64_t look) const {
                                  "newton off\ncommunicate single vel yes\nread_data grains.data\n",
                                  floor ? "f" : "p");
   const auto property = [&](const char* name, double value) {
-    deck += fmt::format("fix {0} all property/global {0} peratomtypepair 1 {1:.17g}\n", name, value);
+    deck += fmt::format("fix {0} all property/global {0} peratomtypepair {2} {1:.17g}", name, value,
+                        rough ? 2 : 1);
+    for (int k = 1; k < (rough ? 4 : 1); ++k)
+      deck += fmt::format(" {:.17g}", value);
+    deck += "\n";
   };
   property("kn", c.normalStiffness);
   property("kt", c.tangentialStiffness);
   property("gamman", c.normalDamping);
   property("gammat", c.tangentialDamping);
   property("coefficientFriction", c.friction);
-  deck += fmt::format("pair_style gran model hooke/stiffness tangential history\npair_coeff * *\n"
-                      "neighbor 0.1 bin\nneigh_modify every 1 delay 0\ntimestep {:.17g}\n"
-                      "fix weight all gravity {:.17g} vector {:.17g} 0 {:.17g}\nfix motion all nve/sphere\n",
-                      timeStep, gravity, std::sin(angle * degree), -std::cos(angle * degree));
-  if (floor)
+  deck += fmt::format(
+      "pair_style gran model hooke/stiffness tangential history\npair_coeff * *\n"
+      "neighbor 0.1 bin\nneigh_modify every 1 delay 0\ntimestep {:.17g}\n"
+      "fix weight all gravity {:.17g} vector {:.17g} 0 {:.17g}\nfix motion all nve/sphere\n{}",
+      timeStep, gravity, std::sin(angle * degree), -std::cos(angle * degree), rough ? heldFast : "");
+  if (floor && !rough)
     deck += "fix floor all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0\n";
   return deck + fmt::format("compute kinetic all ke\nthermo_style custom step atoms c_kinetic\n"
                             "thermo_modify norm no format float %.17g\nthermo {}\n",
@@ -127,7 +144,7 @@ std::string Beads::yadeScript(std::int64_t steps) const {
     yade.upper[k] = s.domain.upper[k];
     yade.gravity[k] = s.gravity[k];
   }
-  yade.floor = floor;
+  yade.floor = floor && !rough;
   yade.timeStep = timeStep;
   return peers::yadeScript(yade, steps);
 }
@@ -172,17 +189,30 @@ std::vector<GrainSeed> tiled(const std::vector<GrainSeed>& tile, double side, in
   return all;
 }
 
-std::vector<GrainSeed> flowing(const Beads& beads, const std::vector<GrainSeed>& start, double time) {
+std::vector<GrainSeed> roughened(std::vector<GrainSeed> beads) {
+  constexpr double layer = 1.1; // a gap in the heights of a settled tile
+  for (GrainSeed& s : beads)
+    if (s.position.z() < layer) {
+      s.species = 1;
+      s.velocity = s.spin = Vec3::Zero();
+    }
+  return beads;
+}
+
+std::vector<GrainSeed> after(const Beads& beads, const std::vector<GrainSeed>& start, double time) {
+  DemSolver solver(beads.scene(), {0});
+  solver.add(start);
+  solver.advance(std::llround(time / beads.timeStep));
+  return solver.present();
+}
+
+std::vector<GrainSeed> shaken(std::vector<GrainSeed> beads) {
   constexpr double shearRate = 0.05, agitation = 0.3;
-  std::vector<GrainSeed> moving = start;
-  for (GrainSeed& s : moving) {
+  for (GrainSeed& s : beads) {
     RandomStream random(3, RandomPurpose::test, s.id);
     s.velocity = Vec3(shearRate * s.position.z(), 0, 0) + agitation * random.direction();
   }
-  DemSolver solver(beads.scene(), {0});
-  solver.add(moving);
-  solver.advance(std::llround(time / beads.timeStep));
-  return solver.present();
+  return beads;
 }
 
 std::vector<GrainSeed> gas(int across, double solidFraction, Beads& beads) {

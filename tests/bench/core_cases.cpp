@@ -35,11 +35,10 @@ Scene clampedScene(Beads beads) {
   return beads.scene();
 }
 
-/// A bed of tiles on a slope (angle 0: at rest for good).
-CoreCase bed(const std::string& name, const Tile& t, int nx, int ny, double angle, bool friction,
-             std::int64_t steps, bool peers) {
-  const Beads beads{nx * t.side(), ny * t.side(), 2.0 * t.layers + 10, angle, 1, friction, true};
-  CoreCase c{name, beads.scene(), tiled(t.grains, t.side(), nx, ny), {}, steps, {}, {}, {}, {}, {}};
+/// A bed on the ground that `beads` describes.
+CoreCase bed(const std::string& name, const Beads& beads, std::vector<GrainSeed> grains, std::int64_t steps,
+             bool peers) {
+  CoreCase c{name, beads.scene(), std::move(grains), {}, steps, {}, {}, {}, {}, {}};
   if (peers) {
     c.yadeScript = beads.yadeScript(look);
     c.clamped = clampedScene(beads);
@@ -49,15 +48,33 @@ CoreCase bed(const std::string& name, const Tile& t, int nx, int ny, double angl
   return c;
 }
 
-CoreCase chute(bool quick, bool flows) {
+/// nx times ny tiles.
+Beads ground(const Tile& t, int nx, int ny, double angle = 0) {
+  return {nx * t.side(), ny * t.side(), 2.0 * t.layers + 10, angle};
+}
+
+/// Settled tiles on a level floor.
+CoreCase levelBed(const std::string& name, const Tile& t, int nx, int ny, bool friction, std::int64_t steps) {
+  Beads beads = ground(t, nx, ny);
+  beads.friction = friction;
+  return bed(name, beads, tiled(t.grains, t.side(), nx, ny), steps, false);
+}
+
+enum class Chute { rest, flowing, shaken };
+
+/// 32,000 beads on a slope of 26 degrees.
+CoreCase chute(const std::string& name, bool quick, Chute kind) {
+  constexpr double flowTime = 6, shortTime = 0.3, shakenTime = 2;
   const Tile& t = tile(10, 40, quick);
-  CoreCase c = bed(flows ? "chute_flowing" : "chute_rest", t, 4, 2, 26, true, quick ? look : 4 * look, true);
-  if (flows) {
-    // One tile flows and is repeated: as good a bed to measure, at an eighth of the time.
-    const Beads one{t.side(), t.side(), 2.0 * t.layers + 10, 26};
-    c.grains = tiled(flowing(one, t.grains, quick ? 0.3 : 2), t.side(), 4, 2);
-  }
-  return c;
+  Beads one = ground(t, 1, 1, 26), whole = ground(t, 4, 2, 26);
+  one.rough = whole.rough = kind != Chute::shaken;
+  // One tile flows and is repeated: as good a bed to measure, at an eighth of the time.
+  std::vector<GrainSeed> grains = one.rough ? roughened(t.grains) : shaken(t.grains);
+  if (kind != Chute::rest)
+    grains = after(one, grains, quick ? shortTime : kind == Chute::flowing ? flowTime : shakenTime);
+  // In flow so long that everybody's lists are made anew several times.
+  const std::int64_t steps = quick ? look : kind == Chute::rest ? 4 * look : 10 * look;
+  return bed(name, whole, tiled(grains, t.side(), 4, 2), steps, true);
 }
 
 CoreCase dilute(bool quick) {
@@ -172,32 +189,30 @@ using Maker = std::function<CoreCase(bool)>;
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> all{
-      {"chute_rest", [](bool q) { return chute(q, false); }},
-      {"chute_flowing", [](bool q) { return chute(q, true); }},
+      {"chute_rest", [](bool q) { return chute("chute_rest", q, Chute::rest); }},
+      {"chute_flowing", [](bool q) { return chute("chute_flowing", q, Chute::flowing); }},
+      {"chute_shaken", [](bool q) { return chute("chute_shaken", q, Chute::shaken); }},
       {"bed_1e5",
        [](bool q) {
-         CoreCase c =
-             bed("bed_1e5", tile(10, 25, q), q ? 2 : 8, q ? 1 : 5, 0, true, q ? look : 2 * look, true);
+         const Tile& t = tile(10, 25, q);
+         const int nx = q ? 2 : 8, ny = q ? 1 : 5;
          // At rest there is no energy to compare; see docs/performance.md.
-         c.grains = dropped(std::move(c.grains), 0.5);
-         return c;
+         std::vector<GrainSeed> grains = dropped(tiled(t.grains, t.side(), nx, ny), 0.5);
+         return bed("bed_1e5", ground(t, nx, ny), std::move(grains), q ? look : 2 * look, true);
        }},
       {"bed_1e4",
-       [](bool q) {
-         return bed("bed_1e4", tile(10, 25, q), 2, q ? 1 : 2, 0, true, q ? look : 10 * look, false);
-       }},
+       [](bool q) { return levelBed("bed_1e4", tile(10, 25, q), 2, q ? 1 : 2, true, q ? look : 10 * look); }},
       {"bed_1e4_frictionless",
        [](bool q) {
-         return bed("bed_1e4_frictionless", tile(10, 25, q), 2, q ? 1 : 2, 0, false, q ? look : 10 * look,
-                    false);
+         return levelBed("bed_1e4_frictionless", tile(10, 25, q), 2, q ? 1 : 2, false, q ? look : 10 * look);
        }},
       {"bed_1e5_frictionless",
        [](bool q) {
-         return bed("bed_1e5_frictionless", tile(10, 25, q), q ? 2 : 8, q ? 1 : 5, 0, false,
-                    q ? look : 2 * look, false);
+         return levelBed("bed_1e5_frictionless", tile(10, 25, q), q ? 2 : 8, q ? 1 : 5, false,
+                         q ? look : 2 * look);
        }},
       {"bed_1e6",
-       [](bool q) { return bed("bed_1e6", tile(10, 25, q), q ? 4 : 20, q ? 2 : 20, 0, true, 60, false); }},
+       [](bool q) { return levelBed("bed_1e6", tile(10, 25, q), q ? 4 : 20, q ? 2 : 20, true, 60); }},
       {"hopper_conical", conicalHopper},
       {"binary_1_10", binary},
       {"dilute_gas", dilute},

@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 namespace {
 
 // Yade's contact constants are those of two materials in series: twice the constant each, and a damper
-// without limit for the floor, whose contacts have twice the reduced mass. Its velocities are half a step
-// behind positions, as ours: the run begins with a step of no length for the forces of the start, and the
-// energy is that of the mean of two half steps.
+// without limit for the floor and for beads that are held fast, whose contacts have twice the reduced mass.
+// Its velocities are half a step behind positions, as ours: the run begins with a step of no length for the
+// forces of the start, and the energy is that of the mean of two half steps.
 constexpr const char* body = R"(
 import math, time
 
@@ -34,16 +34,19 @@ angle = math.atan(friction)
 bead = O.materials.append(ViscElMat(kn=2 * kn, ks=2 * ks, cn=2 * cn, cs=0, frictionAngle=angle, density=1))
 O.periodic = True
 O.cell.setBox(*[upper[k] - lower[k] for k in range(3)])
+ground = O.materials.append(ViscElMat(kn=2 * kn, ks=2 * ks, cn=1e30, cs=0, frictionAngle=angle, density=1))
 ids = []
 for a in sections['Atoms']:
-    i = O.bodies.append(sphere([a[4 + k] - lower[k] for k in range(3)], radius, material=bead))
+    held = a[1] == 2
+    i = O.bodies.append(sphere([a[4 + k] - lower[k] for k in range(3)], radius, material=ground if held else bead,
+                               fixed=held))
+    if held:
+        continue
     state = O.bodies[i].state
     state.mass, state.inertia = mass, Vector3(1, 1, 1) * 0.4 * mass * radius * radius
     state.vel, state.angVel = Vector3(*speeds[int(a[0])][:3]), Vector3(*speeds[int(a[0])][3:])
     ids.append(i)
 if floor:
-    ground = O.materials.append(
-        ViscElMat(kn=2 * kn, ks=2 * ks, cn=1e30, cs=0, frictionAngle=angle, density=1))
     size, parts = [upper[k] - lower[k] for k in range(3)], 3
     for i in range(parts):
         for j in range(parts):

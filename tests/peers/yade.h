@@ -13,7 +13,7 @@ namespace sandglass::peers {
 std::string yadeVersion();
 
 /// A periodic box of spheres of one size and density over a floor, as `HookeHistory` describes their contacts
-/// (no tangential damping), gravity included.
+/// (no tangential damping), gravity included. Spheres of type 2 are held fast.
 struct YadeScene {
   HookeHistory law;
   double radius = 0, mass = 0;

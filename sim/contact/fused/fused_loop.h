@@ -317,8 +317,9 @@ template <class W> FusedLoop pickFusedLoop(const FusedLaws& laws) {
     if (laws.normal == Normal::linear)
       return laws.project ? fusedLoop<W, Normal::linear, true, true, none>
                           : fusedLoop<W, Normal::linear, true, false, none>;
-    if (laws.normal == Normal::linearOfMass && !laws.project)
-      return fusedLoop<W, Normal::linearOfMass, true, false, none>;
+    if (laws.normal == Normal::linearOfMass)
+      return laws.project ? fusedLoop<W, Normal::linearOfMass, true, true, none>
+                          : fusedLoop<W, Normal::linearOfMass, true, false, none>;
   }
   if (laws.dashpot == coefficient && !laws.project) {
     if (laws.normal == Normal::linear) return fusedLoop<W, Normal::linear, true, false, coefficient>;

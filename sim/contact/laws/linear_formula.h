@@ -16,6 +16,7 @@ template <class Real> struct LinearConstants {
 /// gamma = 2 zeta sqrt(k m) + rate m.
 template <class A, class Real, class V>
 SANDGLASS_LOOP V linearDamping(const LinearConstants<Real>& c, V mass) {
+  if (c.zeta == 0) return c.rate * mass; // of all pairs or of none
   return A::fma(A::template all<V>(2 * c.zeta), A::root(c.k * mass), c.rate * mass);
 }
 

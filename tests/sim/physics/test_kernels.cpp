@@ -100,6 +100,7 @@ normal = )" + normal +
                  "glass", "glass", diameterOfB, accuracy.empty() ? "" : "[accuracy]\n" + accuracy);
 }
 
+const std::string ratedLaw = R"({ law = "linear", stiffness = "400 N/m", damping_rate = "100 1/s" })";
 const std::string linearLaw = R"({ law = "linear", stiffness = "400 N/m", restitution = 0.7 })",
                   hertzLaw = R"({ law = "hertz", restitution = 0.7 })";
 
@@ -173,6 +174,9 @@ TEST_CASE("loops of their own give the plain kernel's bits over whole runs") {
                                 {linearLaw, R"({ law = "none" })", 1.4},
                                 {linearLaw, spring + " }", 2},
                                 {linearLaw, spring + R"(, rotation = "project", arm = "radius" })", 2},
+                                {linearLaw, spring + R"(, rotation = "project", arm = "radius" })", 1.4},
+                                {ratedLaw, spring + R"(, rotation = "project", arm = "radius" })", 2},
+                                {ratedLaw, spring + " }", 1.4},
                                 {linearLaw, spring + ", damping_ratio = 0.5 }", 2},
                                 {linearLaw, spring + " }", 1.4},
                                 {linearLaw, spring + R"(, damping_ratio = 0.5, arm = "radius" })", 1.4},
