@@ -130,6 +130,9 @@ void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Sc
       reportOverlaps(first, scratch);
       continue;
     }
+    // As the loops of their own do: the records that as many pairs will need, three a grain.
+    for (int k = 0; records && k < count * 4 * view_.quads / 3; k += 8)
+      __builtin_prefetch(records + k * sizeof(double), 1, 2);
     fillBlock(first, count, dt, scratch.block, scratch.columns);
     applyLaws(first, scratch);
     reportOverlaps(first, scratch);
