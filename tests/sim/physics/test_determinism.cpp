@@ -107,10 +107,9 @@ TEST_CASE("save and load at any step goes on with the same bits") {
 
 TEST_CASE("a run that is loaded goes as fast as one that was not interrupted") {
   if (bestKernelWidth() == KernelWidth::plain) return; // has no loops of their own
-  // A spring that is projected: a loop of its own only where all grains have the mass that the scene
-  // promises.
+  // A dashpot by its rate: a loop of its own only where all grains have the mass that the scene promises.
   SceneText text = slabText(linear, false);
-  text.tangential = R"({ law = "spring", friction = 0.5, rotation = "project" })";
+  text.tangential = R"({ law = "spring", friction = 0.5, damping_rate = "100 1/s" })";
   text.rolling = SceneText().rolling;
   const auto first = filled(text, 1);
   first->advance(10);

@@ -179,6 +179,7 @@ TEST_CASE("loops of their own give the plain kernel's bits over whole runs") {
                                 {ratedLaw, spring + " }", 1.4},
                                 {linearLaw, spring + ", damping_ratio = 0.5 }", 2},
                                 {linearLaw, spring + " }", 1.4},
+                                {linearLaw, spring + R"(, rotation = "project" })", 1.4},
                                 {linearLaw, spring + R"(, damping_ratio = 0.5, arm = "radius" })", 1.4},
                                 {hertzLaw, R"({ law = "mindlin", friction = 0.4 })", 2},
                                 {hertzLaw, R"({ law = "mindlin", friction = 0.4 })", 1.4}};
