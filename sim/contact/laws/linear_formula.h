@@ -3,6 +3,8 @@
 
 #include "sim/contact/laws/arithmetic.h"
 
+#include <type_traits>
+
 namespace sandglass {
 
 /// What a normal law gives the others: its force, the part that loads the contact, its stiffness and damping.
@@ -16,7 +18,8 @@ template <class Real> struct LinearConstants {
 /// gamma = 2 zeta sqrt(k m) + rate m.
 template <class A, class Real, class V>
 SANDGLASS_LOOP V linearDamping(const LinearConstants<Real>& c, V mass) {
-  if (c.zeta == 0) return c.rate * mass; // of all pairs or of none
+  if constexpr (std::is_floating_point_v<Real>) // the same bits without the root
+    if (c.zeta == 0) return c.rate * mass;
   return A::fma(A::template all<V>(2 * c.zeta), A::root(c.k * mass), c.rate * mass);
 }
 
