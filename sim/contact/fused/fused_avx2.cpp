@@ -1,5 +1,5 @@
 #include "sim/contact/arithmetic_avx2.h"
-#include "sim/contact/fused/fused_loop.h"
+#include "sim/contact/fused/fused_pick.h"
 #include "sim/contact/pair_load_avx2.h"
 
 namespace sandglass {

@@ -1,7 +1,7 @@
 // Mixed precision, eight pairs at a time.
 
 #include "sim/contact/arithmetic_avx2.h"
-#include "sim/contact/fused/fused_loop.h"
+#include "sim/contact/fused/fused_pick.h"
 #include "sim/contact/mixed/mixed_narrow.h"
 #include "sim/contact/mixed/mixed_reach.h"
 

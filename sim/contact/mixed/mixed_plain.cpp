@@ -1,6 +1,6 @@
 // Mixed precision one pair at a time: the oracle of the wider loops.
 
-#include "sim/contact/fused/fused_loop.h"
+#include "sim/contact/fused/fused_pick.h"
 #include "sim/contact/mixed/mixed_loops.h"
 #include "sim/contact/mixed/mixed_reach.h"
 
