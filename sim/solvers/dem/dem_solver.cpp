@@ -271,9 +271,14 @@ void DemSolver::stepOnce() {
   checkOverlap(deepest);
   if (report.bad) reportBadMotion();
   if (!events.empty()) applyEvents(events);
-  if (drag_ > 0) damp();
-  if (frozen_.any()) frozen_.advance(grains_, loop_, dt_, step_ == 0 ? 0.0 : dt_);
-  if (drag_ > 0 || frozen_.any()) pairForces_.refresh();
+  if (drag_ > 0) {
+    damp();
+    pairForces_.refresh();
+  }
+  if (frozen_.any()) {
+    frozen_.advance(grains_, loop_, dt_, step_ == 0 ? 0.0 : dt_);
+    frozen_.each([this](std::int64_t grain) { pairForces_.refresh(grain); });
+  }
   ++step_;
   placeWalls(walls_, time(), dt_);
   atFullStep_.valid = false;

@@ -30,6 +30,11 @@ public:
 
   /// After grains came, left or changed places: takes the motion that they have now as the one to keep.
   void capture(const GrainStore& grains);
+  /// Calls visit(storage index) for each.
+  template <class Visit> void each(Visit&& visit) const {
+    for (const Held& h : held_)
+      visit(h.grain);
+  }
   /// Storage indices of those that move or turn, whose forces advance() asks the loop for.
   std::vector<std::int32_t> moving() const;
   /// Gives them back what capture() found, at the place where advance() has brought them.
