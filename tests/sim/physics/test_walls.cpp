@@ -1,6 +1,7 @@
-// Wall geometry against brute-force distances and hand-made cases.
+// Wall geometry against brute-force distances and hand-made cases; many grains at one wall.
 
 #include "sim/walls/wall_registry.h"
+#include "tests/sim/physics/bench_scenes.h"
 
 #include <catch2/catch.hpp>
 
@@ -119,4 +120,44 @@ TEST_CASE("contradicting sizes are refused") {
                     Catch::Contains("must be narrower"));
   CHECK_THROWS_WITH(make("wedge", {{"outlet", 0.02}, {"width", 0.1}, {"half_angle", 0.1}, {"height", 0.3}}),
                     Catch::Contains("must end below the height"));
+}
+
+TEST_CASE("each of many grains at a wall gets the forces of its own contacts, and the wall their sum") {
+  // A row of grains along the edge of a box, far from each other; two of three touch two of its faces at
+  // once, so that blocks of 64 contacts end anywhere. Springs alone, from rest: v(1) = dt/2 (a(0) + a(1)).
+  using namespace sandglass::testing;
+  SceneText t;
+  t.normal = R"({ law = "linear", stiffness = "1000 N/m", restitution = 1.0 })";
+  t.walls =
+      "[[wall]]\nname = \"box\"\nkind = \"box\"\nmaterial = \"wall\"\nlower = [\"0 m\", \"-1 m\", \"0 m\"]\n"
+      "upper = [\"1 m\", \"1 m\", \"1 m\"]\n";
+  const double mass = 4.0 / 3.0 * std::numbers::pi * 1e-9 * 2500.0, k = 1000.0;
+  const auto overlapX = [](int i) { return i % 3 == 0 ? -1e-4 : 1e-6 * (1 + i % 7); };
+  const auto overlapZ = [](int i) { return 1e-6 * (1 + i % 11); };
+  for (const int threads : {1, 2}) {
+    DemSolver solver(t.scene(), {threads});
+    std::vector<GrainSeed> seeds;
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < 299; ++i) {
+      seeds.push_back(grain(i, {1e-3 - overlapX(i), -0.9 + 0.006 * i, 1e-3 - overlapZ(i)}));
+      sum -= k * Vec3(std::max(overlapX(i), 0.0), 0.0, overlapZ(i));
+    }
+    solver.add(seeds);
+    solver.advance(0);
+    CHECK((solver.walls()[0].force - sum).norm() < 1e-9 * sum.norm());
+    solver.advance(1);
+    const double dt = solver.stepSize();
+    const auto speed = [&](double overlap) {
+      const double a = k * std::max(overlap, 0.0) / mass;
+      return 0.5 * dt * (a + k * (std::max(overlap, 0.0) - 0.5 * dt * dt * a) / mass);
+    };
+    for (const GrainSeed& s : solver.present()) {
+      const int i = static_cast<int>(s.id);
+      // Touched points are rounded to 1e-16 m at 1 mm from a centre, so normals tilt by some 1e-13.
+      const double tilt = 1e-12 * speed(1e-5);
+      CHECK(s.velocity.x() == Approx(speed(overlapX(i))).epsilon(1e-8).margin(tilt));
+      CHECK(std::abs(s.velocity.y()) < tilt);
+      CHECK(s.velocity.z() == Approx(speed(overlapZ(i))).epsilon(1e-8));
+    }
+  }
 }
