@@ -247,7 +247,7 @@ Solver::State DemSolver::save() {
   put(s, "pairs.history", list_.histories());
   put(s, "pairs.live", list_.liveArray());
   if (across_.used()) put(s, "across.history", across_.historyArray());
-  put(s, "groups.moved", loop_.moved());
+  put(s, "groups.moved", loop_.travel().moved());
   put(s, "walls.history", wallContacts_.histories());
   put(s, "walls.feature", wallContacts_.features());
   std::vector<WallState> walls;
@@ -324,7 +324,7 @@ void DemSolver::load(const State& s) {
   if (!list_.setHistories(histories)) misfit("pairs.history");
   restore("pairs.live", list_.liveArray());
   if (across_.used()) restore("across.history", across_.historyArray());
-  restore("groups.moved", loop_.moved());
+  restore("groups.moved", loop_.travel().moved());
   get(s, "walls.history", histories);
   if (!wallContacts_.setHistories(histories)) misfit("walls.history");
   std::vector<std::int32_t> features;

@@ -260,6 +260,12 @@ void DemSolver::damp() {
                      });
 }
 
+bool DemSolver::listsLastOn() {
+  const bool walls = std::any_of(walls_.begin(), walls_.end(), [](const SolverWall& w) { return w.active; });
+  if (walls || across_.used() || fields_.any()) return false;
+  return loop_.travel().measure(grains_, laws_.range(), scene_.domain.periodic, parallel_);
+}
+
 void DemSolver::stepOnce() {
   std::vector<PairEvent> events;
   DeepestOverlap deepest;
@@ -282,10 +288,10 @@ void DemSolver::stepOnce() {
   ++step_;
   placeWalls(walls_, time(), dt_);
   atFullStep_.valid = false;
-  const bool late = report.late || wallsTravelledTooFar(walls_, wallRadius_);
+  const bool wallsLate = wallsTravelledTooFar(walls_, wallRadius_), late = report.late || wallsLate;
   if (late) checkEscapes();
   const bool fresh = step_ % stepsBetweenOutletChecks == 0 && discharge();
-  if (late && !fresh) rebuild();
+  if (late && !fresh && (wallsLate || !listsLastOn())) rebuild();
 }
 
 std::vector<std::int32_t> DemSolver::idOrder() const {

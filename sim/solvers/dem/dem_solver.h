@@ -81,6 +81,9 @@ private:
 
   void checkPromisedSizes(); ///< laws may count on one grain mass a material until a grain has another
   void rebuild(const std::vector<std::uint8_t>& drop = {});
+  /// Some group has used up what it may move, as far as steps know: looks at where the grains are. If not,
+  /// the lists are to be made anew.
+  bool listsLastOn();
   void prepare();     ///< fresh list, newcomers half a step back, after grains or walls have changed
   void changeAhead(); ///< before grains or walls change: keeps the full step as it is, `stale_` from here on
   /// With semi-implicit steps velocities in store are those of the full step, and forces need not be

@@ -32,11 +32,7 @@ WallContacts::Sweep& wallsOfThread() {
 
 void ParticleLoop::bind() {
   pairs_.bind(grains_, list_);
-  const std::size_t groups = (grains_.size() + group - 1) / group;
-  moved_.assign(groups, 0.0);
-  allowed_.resize(groups);
-  for (std::size_t g = 0; g < groups; ++g)
-    allowed_[g] = grains_.listed[g * group].w;
+  travel_.begin(grains_);
 }
 
 void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, double* ring,
@@ -136,8 +132,8 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
         kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt, gravity.data(),
                     speedLimit, speeds);
         if (kernel.narrow) kernel.narrow(pairs_.view(), g * group, static_cast<int>(last - g * group));
-        moved_[g] += dt * std::sqrt(speeds.x * speeds.x + speeds.y * speeds.y + speeds.z * speeds.z);
-        tired = tired || moved_[g] > allowed_[g];
+        const double speed = std::sqrt(speeds.x * speeds.x + speeds.y * speeds.y + speeds.z * speeds.z);
+        if (travel_.add(g, dt * speed)) tired = true;
         wrong = wrong || speeds.bad;
       });
     }

@@ -12,6 +12,7 @@
 #include "sim/contact/sector_contacts.h"
 #include "sim/contact/wall_contacts.h"
 #include "sim/fields/field_stack.h"
+#include "sim/solvers/dem/group_travel.h"
 
 #include <array>
 #include <vector>
@@ -26,7 +27,7 @@ public:
       : grains_(grains), list_(list), pairs_(pairs), atWalls_(atWalls), walls_(walls), across_(across),
         fields_(fields), parallel_(parallel) {}
 
-  /// After a rebuild: grains of a group may move as far as `listed.w` of its first says.
+  /// After a rebuild.
   void bind();
 
   struct Report {
@@ -49,8 +50,8 @@ public:
   /// Force and torque of contacts in the step just done on the k-th of them [N, N m].
   void watchedForce(std::size_t k, Vec3& force, Vec3& torque) const;
 
-  /// For checkpoints: how far each group may have moved since it was listed [m].
-  std::vector<double>& moved() { return moved_; }
+  /// How far groups may have moved since they were listed.
+  GroupTravel& travel() { return travel_; }
 
 private:
   void keepWatched(std::int64_t first, std::int64_t last, const GroupSums& sums);
@@ -68,7 +69,7 @@ private:
   const SectorContacts& across_;
   FieldStack& fields_;
   Parallel& parallel_;
-  std::vector<double> moved_, allowed_;
+  GroupTravel travel_;
   std::vector<std::int32_t> watched_;
   std::vector<std::array<double, 12>> watchedSums_; ///< as GroupSums has them
   std::vector<PairEvent> events_;
