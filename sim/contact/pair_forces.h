@@ -30,6 +30,7 @@ struct DeepestOverlap {
   void take(double s, std::int64_t a, std::int64_t b, int w) {
     if (s > share || (s == share && (a < idA || (a == idA && b < idB)))) *this = {s, a, b, w};
   }
+  void take(const DeepestOverlap& d) { take(d.share, d.idA, d.idB, d.wall); }
 };
 
 class PairForces {

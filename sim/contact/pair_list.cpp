@@ -203,7 +203,7 @@ void PairList::fillPadding(std::int64_t from, std::int64_t to) {
 void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
   const bool carries = historySize_ > 0 || keepsLive_;
   const std::int64_t* id = grains.id.data();
-  const auto noShift = static_cast<std::uint8_t>(now_.codes.shift.size() / 2);
+  const auto noShift = static_cast<std::uint8_t>(now_.codes.center());
   parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
     PairOrder order;
     PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), grid_.wrapped(), historySize_, single_);

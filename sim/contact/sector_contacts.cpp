@@ -210,7 +210,7 @@ void SectorContacts::step(const GrainStore& grains, double dt, Parallel& paralle
                       }
                       if (block.size > 0) flush();
                       const std::lock_guard lock(merge);
-                      deepest.take(worst.share, worst.idA, worst.idB, worst.wall);
+                      deepest.take(worst);
                     });
 }
 

@@ -11,9 +11,10 @@
 
 namespace sandglass::bench {
 
-/// Beads of diameter 1, density 1, over a floor at z = 0, over beads that are held fast, or in free space, periodic sideways; the numbers of
-/// the granular benchmark that LAMMPS is measured by: spring 2e5, tangential 2/7 of it, damping rate 50,
-/// friction 0.5, step 1e-4, gravity 1 (units of metre, kilogram, second).
+/// Beads of diameter 1, density 1, over a floor at z = 0, over beads that are held fast, or in free space,
+/// periodic sideways; the numbers of the granular benchmark that LAMMPS is measured by: spring 2e5,
+/// tangential 2/7 of it, damping rate 50, friction 0.5, step 1e-4, gravity 1 (units of metre, kilogram,
+/// second).
 struct Beads {
   double width = 0, breadth = 0, height = 0; ///< of the periodic cell [diameters]
   double angle = 0;                          ///< of the floor against gravity [deg]

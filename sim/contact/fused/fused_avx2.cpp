@@ -20,19 +20,7 @@ struct Width256 {
   }
   template <bool turning, bool spin>
   SANDGLASS_LOOP static Motions<V> motions(const ParticleView& v, std::int64_t p) {
-    const auto m = motionsOfFour<turning, spin>(v, p);
-    Motions<V> out;
-    out.velocity = {m.motion.x, m.motion.y, m.motion.z};
-    out.inverseMass = m.motion.w;
-    if constexpr (turning) {
-      out.roll = {m.roll.x, m.roll.y, m.roll.z};
-      out.inverseRadii = m.roll.w;
-    }
-    if constexpr (spin) {
-      out.spin = {m.spin.x, m.spin.y, m.spin.z};
-      out.rollingInverse = m.spin.w;
-    }
-    return out;
+    return motionsFrom<V, turning, spin>(motionsOfFour<turning, spin>(v, p));
   }
   using Places = __m128i; ///< in a table of constants
   SANDGLASS_LOOP static Places placesOfPairs(const std::uint8_t* at) {

@@ -20,19 +20,7 @@ template <class A> struct Width512 {
   }
   template <bool turning, bool spin>
   SANDGLASS_LOOP static Motions<V> motions(const ParticleView& v, std::int64_t p) {
-    const auto m = motionsOfEight<turning, spin>(v, p);
-    Motions<V> out;
-    out.velocity = {m.motion.x, m.motion.y, m.motion.z};
-    out.inverseMass = m.motion.w;
-    if constexpr (turning) {
-      out.roll = {m.roll.x, m.roll.y, m.roll.z};
-      out.inverseRadii = m.roll.w;
-    }
-    if constexpr (spin) {
-      out.spin = {m.spin.x, m.spin.y, m.spin.z};
-      out.rollingInverse = m.spin.w;
-    }
-    return out;
+    return motionsFrom<V, turning, spin>(motionsOfEight<turning, spin>(v, p));
   }
   using Places = __m512i; ///< in a table of constants
   SANDGLASS_LOOP static Places placesOfPairs(const std::uint8_t* at) {

@@ -40,6 +40,23 @@ template <class V> struct Motions {
   V inverseMass, inverseRadii, rollingInverse;
 };
 
+/// From what records hold, as FourMotions and EightMotions have it.
+template <class V, bool turning, bool spin, class Columns>
+SANDGLASS_LOOP Motions<V> motionsFrom(const Columns& m) {
+  Motions<V> out;
+  out.velocity = {m.motion.x, m.motion.y, m.motion.z};
+  out.inverseMass = m.motion.w;
+  if constexpr (turning) {
+    out.roll = {m.roll.x, m.roll.y, m.roll.z};
+    out.inverseRadii = m.roll.w;
+  }
+  if constexpr (spin) {
+    out.spin = {m.spin.x, m.spin.y, m.spin.z};
+    out.rollingInverse = m.spin.w;
+  }
+  return out;
+}
+
 /// Numbers of history a pair: a spring, then a rolling angle.
 constexpr int historySizeOf(FusedLaws::Rolling rolling) {
   return rolling == FusedLaws::Rolling::elasticPlastic ? 6 : 3;

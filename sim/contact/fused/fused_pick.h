@@ -56,28 +56,31 @@ template <class W, FusedLaws::Rolling rolling, bool several> FusedLoop pickSprin
   return nullptr;
 }
 
+/// The same, whatever the rolling resistance.
+template <class W, bool several> FusedLoop pickFrictionLoop(const FusedLaws& laws) {
+  using Rolling = FusedLaws::Rolling;
+  if (laws.rolling == Rolling::none) return pickSpringLoop<W, Rolling::none, several>(laws);
+  if (laws.rolling == Rolling::elasticPlastic)
+    return pickSpringLoop<W, Rolling::elasticPlastic, several>(laws);
+  if (laws.rolling == Rolling::constantTorque)
+    return pickSpringLoop<W, Rolling::constantTorque, several>(laws);
+  return nullptr;
+}
+
 /// All loops of double precision.
 template <class W> FusedLoop pickDoubleLoop(const FusedLaws& laws) {
   using Normal = FusedLaws::Normal;
   using Rolling = FusedLaws::Rolling;
-  if (laws.tables) {
-    if (laws.tangential == FusedLaws::Tangential::none)
-      return laws.normal == Normal::linear
-                 ? fusedLoop<W, Normal::linear, false, false, Dashpot::none, Rolling::none, true>
-             : laws.normal == Normal::linearOfMass
-                 ? fusedLoop<W, Normal::linearOfMass, false, false, Dashpot::none, Rolling::none, true>
-                 : nullptr;
-    return laws.rolling == Rolling::none             ? pickSpringLoop<W, Rolling::none, true>(laws)
-           : laws.rolling == Rolling::elasticPlastic ? pickSpringLoop<W, Rolling::elasticPlastic, true>(laws)
-           : laws.rolling == Rolling::constantTorque ? pickSpringLoop<W, Rolling::constantTorque, true>(laws)
-                                                     : nullptr;
+  if (!laws.tables) {
+    if (const FusedLoop spring = pickFrictionLoop<W, false>(laws)) return spring;
+    return pickFusedLoop<W>(laws);
   }
-  if (laws.rolling == Rolling::elasticPlastic) return pickSpringLoop<W, Rolling::elasticPlastic, false>(laws);
-  if (laws.rolling == Rolling::constantTorque) return pickSpringLoop<W, Rolling::constantTorque, false>(laws);
-  if (laws.normal == Normal::hertzOfSize && laws.tangential == FusedLaws::Tangential::spring &&
-      laws.dashpot == Dashpot::coefficient && !laws.project && laws.rolling == Rolling::none)
-    return fusedLoop<W, Normal::hertzOfSize, true, false, Dashpot::coefficient>;
-  return pickFusedLoop<W>(laws);
+  if (laws.tangential != FusedLaws::Tangential::none) return pickFrictionLoop<W, true>(laws);
+  if (laws.normal == Normal::linear)
+    return fusedLoop<W, Normal::linear, false, false, Dashpot::none, Rolling::none, true>;
+  if (laws.normal == Normal::linearOfMass)
+    return fusedLoop<W, Normal::linearOfMass, false, false, Dashpot::none, Rolling::none, true>;
+  return nullptr;
 }
 
 /// As pickFusedLoop, and for what has none a loop that reads each pair's mass and has all dashpots: the same

@@ -9,8 +9,8 @@
 //   any(mask)                  whether it holds anywhere
 //   pick(mask, a, b)           mask ? a : b
 //   all<V>(number)            the number in every place
-// Constants of a law are single numbers, or registers too where each pair has its own.
 //   larger(a, b)               a < b ? b : a, as std::max has it, NaN included
+// Constants of a law are single numbers, or registers too where each pair has its own.
 // An exact policy gives the bits of IEEE arithmetic, whatever the width.
 
 /// Inlined always: files are compiled for different processors, and what is not inlined may be merged.

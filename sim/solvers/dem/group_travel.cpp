@@ -17,10 +17,11 @@ constexpr std::int64_t groupsPerPiece = 32;
 /// used up, and looking costs a twentieth of making them.
 constexpr double leastLeft = 0.25;
 
-/// Sums for the fit of displacements: of (1, X) by itself and with d.
+/// For the fit of displacements: sums of (1, X) by itself and with d.
 struct Sums {
   Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 4, 3> product = Eigen::Matrix<double, 4, 3>::Zero();
+  double widest = 0.0; ///< the largest reach [m]
 };
 
 Vec3 displacement(const GrainStore& grains, std::int64_t i) {
@@ -61,22 +62,21 @@ bool GroupTravel::measure(const GrainStore& grains, double range, const std::arr
       const Eigen::Vector4d x = basis(i);
       parts[g].square += x * x.transpose();
       parts[g].product += x * displacement(grains, i).transpose();
+      parts[g].widest = std::max(parts[g].widest, grains.place[i].w + 0.5 * range + grains.listed[i].w);
     }
   });
   Sums all;
   for (const Sums& part : parts) {
     all.square += part.square;
     all.product += part.product;
+    all.widest = std::max(all.widest, part.widest);
   }
   // Any A is right; a little of the unit matrix keeps the best one finite where grains lie in a plane.
   const double radius = grains.place[0].w;
   for (int k = 1; k < 4; ++k)
     all.square(k, k) += radius * radius;
   const Eigen::Matrix<double, 4, 3> fit = all.square.ldlt().solve(all.product);
-  double widest = 0.0; // the largest reach
-  for (std::int64_t i = 0; i < n; ++i)
-    widest = std::max(widest, grains.place[i].w + 0.5 * range + grains.listed[i].w);
-  const double sheared = fit.bottomRows<3>().norm() * widest;
+  const double sheared = fit.bottomRows<3>().norm() * all.widest;
   eachGroup([&](std::int64_t g, std::int64_t first, std::int64_t last) {
     double farthest = 0.0;
     for (std::int64_t i = first; i < last; ++i) {

@@ -103,7 +103,7 @@ void ParticleLoop::crossing(double dt, bool keepHistory) {
                         list_.crossingOutput() + begin * list_.outputStride());
         const std::lock_guard lock(merge);
         events_.insert(events_.end(), scratch.events.begin(), scratch.events.end());
-        deepest_.take(scratch.deepest.share, scratch.deepest.idA, scratch.deepest.idB, scratch.deepest.wall);
+        deepest_.take(scratch.deepest);
       });
 }
 
@@ -141,11 +141,11 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
     if (wrong) bad = true;
     const std::lock_guard lock(merge);
     events_.insert(events_.end(), scratch.events.begin(), scratch.events.end());
-    for (const DeepestOverlap& d : {atWalls.deepest, scratch.deepest})
-      deepest_.take(d.share, d.idA, d.idB, d.wall);
+    deepest_.take(atWalls.deepest);
+    deepest_.take(scratch.deepest);
   });
   events.insert(events.end(), events_.begin(), events_.end());
-  deepest.take(deepest_.share, deepest_.idA, deepest_.idB, deepest_.wall);
+  deepest.take(deepest_);
   return {late, bad};
 }
 
