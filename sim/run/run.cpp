@@ -70,6 +70,7 @@ struct Run::Impl {
       if (const auto refusals = solverRefusals(scene); !refusals.empty()) throw InputError(refusals);
     const auto make = options.solverFactory ? options.solverFactory : SolverFactory(makeSolver);
     solver = make(scene, SolverOptions{options.threads, options.wallLoads});
+    refuseEndlessStages(scene, solver->stepSize());
     recorder = std::make_unique<RunRecorder>(scene, options, solver->stepSize(), log);
     stages = std::make_unique<StageControl>(scene, *solver, recorder->log());
     provenance = {{"scene", sceneHash(scene)},

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sandglass {
 
@@ -18,7 +19,20 @@ std::int64_t stepsIn(double duration, double stepSize) {
   return std::llround(duration / stepSize);
 }
 
+constexpr double mostSteps = 9007199254740992; // 2^53
+
 } // namespace
+
+void refuseEndlessStages(const Scene& scene, double stepSize) {
+  for (const StageSpec& stage : scene.stages)
+    for (const auto& [key, time] :
+         {std::pair{"duration", stage.duration.value_or(0)}, std::pair{"settled_after", stage.settledAfter}})
+      if (time > mostSteps * stepSize)
+        throw InputError(
+            fmt::format("stage.{}.until.{} is {:g} s, which are {:.2g} steps of {:.3g} s, but must "
+                        "not be more than {:.2g}; shorten it or lengthen the step",
+                        stage.name, key, time, time / stepSize, stepSize, mostSteps));
+}
 
 StageControl::StageControl(const Scene& scene, Solver& solver, Log log)
     : scene_(scene), solver_(solver), log_(std::move(log)), watchdog_(scene), recycling_(scene) {}

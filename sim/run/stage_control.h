@@ -15,6 +15,10 @@
 
 namespace sandglass {
 
+/// Throws InputError for a stage that lasts, or settles no sooner than, more steps than can be counted in a
+/// double (2^53, fourteen years of a single grain).
+void refuseEndlessStages(const Scene& scene, double stepSize);
+
 class StageControl {
 public:
   /// Steps between two looks at rain and cheap end conditions (mass, number of grains).

@@ -152,6 +152,18 @@ TEST_CASE("Stages end by mass, by emptiness and by quiet", "[run]") {
     CHECK(summary.time - summary.flow.lastDischarge == Approx(0.25).margin(0.0201));
 }
 
+TEST_CASE("A stage of more steps than can be counted is refused", "[run]") {
+  Scene scene = ballisticScene();
+  SECTION("duration") {
+    scene.stages[1].duration = 1e30;
+  }
+  SECTION("settled_after") {
+    scene.stages[1].settledAfter = 1e30;
+  }
+  Run run(scene, options({}));
+  CHECK_THROWS_WITH(run.execute(), Contains("stage.fall.until.") && Contains("1e+33 steps of 0.001 s"));
+}
+
 TEST_CASE("A run that is stopped and resumed leaves the same bits", "[run]") {
   const TemporaryFolder folder("resume");
   Run whole(ballisticScene(), options(folder / "whole"));

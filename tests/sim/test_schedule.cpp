@@ -34,6 +34,10 @@ TEST_CASE("Intervals shorter than a step are due at every step, and 0 means neve
   const Schedule dense(0.25, 1.0);
   for (std::int64_t step = 0; step < 5; ++step)
     CHECK(dense.next(step) == step + 1);
+  // However short: without a limit the search for its number would not end.
+  const Schedule tiny(1e-30, 1.0);
+  CHECK(tiny.isDue(1'000'000));
+  CHECK(tiny.next(1'000'000) == 1'000'001);
   const Schedule none(0, 1.0);
   CHECK(none.next(7) == Schedule::never);
   CHECK_FALSE(none.isDue(0));
