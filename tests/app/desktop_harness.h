@@ -37,8 +37,12 @@ inline QApplication& application() {
   return *app;
 }
 
-/// Handles events until the condition holds; false when it does not within the time.
-template <class Condition> bool waitFor(Condition&& condition, double seconds = 30) {
+/// [s] simulated, of a run that no machine ends while a test waits: the test ends it.
+constexpr double endless = 1000;
+
+/// Handles events until the condition holds; false when it does not within the time, which is for a machine
+/// that is slow and busy: no test waits so long unless it fails.
+template <class Condition> bool waitFor(Condition&& condition, double seconds = 120) {
   QElapsedTimer since;
   since.start();
   while (!condition()) {
@@ -127,6 +131,23 @@ private:
     return nullptr;
   }
 };
+
+/// The step at which a run rests that has been paused, when the window has its frame: a change that is asked
+/// for after the pause (of nothing: drag stays 0) is given this step.
+inline std::int64_t restingStep(Desktop& desktop) {
+  auto& session = desktop.session();
+  const std::size_t before = session.current().scene->events.size();
+  const QString fault = session.change({.drag = 0});
+  if (!fault.isEmpty()) throw std::logic_error(fault.toStdString());
+  std::int64_t step = -1;
+  const bool rests = waitFor([&] {
+    const auto& events = session.current().scene->events;
+    if (events.size() > before) step = events.back().step;
+    return step >= 0 && session.liveFrame()->step == step;
+  });
+  if (!rests) throw std::logic_error("the run does not come to rest");
+  return step;
+}
 
 /// Beads of 2 mm, `side` by `side` by `layers`, on a cube lattice with hair gaps, that fall and spread for
 /// `duration` [s]: dense from the first step on.

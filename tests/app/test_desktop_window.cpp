@@ -18,6 +18,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <set>
 
 using namespace sandglass;
@@ -34,7 +35,13 @@ double timeShown(Desktop& desktop) {
 TEST_CASE("A scene is opened, run, paused, stepped, stopped and finished by keys", "[desktop]") {
   TemporaryFolder folder("desktop-keys");
   Desktop desktop(folder / "run");
-  REQUIRE(desktop.open(writeBed(folder / "bed.toml", 8, 8, 0.2)));
+  const auto scene = writeBed(folder / "bed.toml", 8, 8, endless);
+  std::ofstream(scene, std::ios::app) << R"(
+[[stage]]
+name = "last"
+until = { duration = "0.1 s" }
+)";
+  REQUIRE(desktop.open(scene));
   REQUIRE(desktop.window->bannerText().toStdString() == "");
   REQUIRE(desktop.window->windowTitle().startsWith("A bed of beads"));
   REQUIRE_FALSE(desktop.session().runs());
@@ -45,8 +52,8 @@ TEST_CASE("A scene is opened, run, paused, stepped, stopped and finished by keys
 
   desktop.key(Qt::Key_Space);
   REQUIRE(desktop.session().isPaused());
-  handleEvents(0.5); // the group of steps that was going on, and its picture
-  const auto paused = desktop.session().liveFrame()->step;
+  const auto paused = restingStep(desktop);
+  REQUIRE(paused > 0);
   handleEvents(0.3);
   REQUIRE(desktop.session().liveFrame()->step == paused);
 
@@ -60,14 +67,22 @@ TEST_CASE("A scene is opened, run, paused, stepped, stopped and finished by keys
   desktop.key(Qt::Key_F5, Qt::ShiftModifier);
   REQUIRE(waitFor([&] { return !desktop.session().runs(); }));
   REQUIRE(desktop.session().current().canResume);
+  REQUIRE(desktop.session().progress()->step == paused + 101);
 
   desktop.key(Qt::Key_F5); // goes on from the checkpoint
+  REQUIRE(waitFor([&] { return desktop.session().liveFrame()->step > paused + 101; }));
+  desktop.key(Qt::Key_E, Qt::ShiftModifier); // the last stage ends by itself
   REQUIRE(waitFor([&] { return !desktop.session().runs(); }));
   REQUIRE(desktop.session().progress()->fraction == 1);
   REQUIRE(desktop.window->bannerText().toStdString() == "");
-  // 0.2 s of a frame each 5 ms, the first and the last included.
-  REQUIRE(waitFor([&] { return openFrames(folder / "run")->size() == 41; }));
-  REQUIRE(waitFor([&] { return timeShown(desktop) == Approx(0.2).epsilon(1e-6); }));
+  const double end = desktop.session().progress()->time;
+  REQUIRE(waitFor([&] { return timeShown(desktop) == Approx(end).epsilon(1e-6); }));
+  // A frame each 5 ms from the first step on, and one at the end.
+  const auto frames = openFrames(folder / "run");
+  REQUIRE(frames->size() == static_cast<std::size_t>(std::ceil(end / 5e-3 - 1e-6)) + 1);
+  for (std::size_t k = 0; k + 1 < frames->size(); ++k)
+    REQUIRE(std::abs(frames->time(k) - 5e-3 * static_cast<double>(k)) < 1e-4);
+  REQUIRE(frames->time(frames->size() - 1) == Approx(end));
 }
 
 TEST_CASE("Mouse and keys move the camera, the slider moves in time", "[desktop]") {
