@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sandglass {
 
@@ -61,6 +62,12 @@ public:
   bool turnsGrains() const override { return true; }
   bool fullRadiusArm() const override { return fullArm_.value(); }
   unsigned reads() const override { return 0; }
+
+  /// A stiffness of its own has a time scale of its own: a period of solid spheres that turn and slide on it
+  /// (2/7 of their reduced mass). That of the normal spring is as long up to 8/7 of its stiffness.
+  double collisionTime(int type, double mass, double, double) const override {
+    return 2.0 * std::numbers::pi * std::sqrt(2.0 / 7.0 * mass / table_[type].stiffness); // infinite without
+  }
 
   template <class Real, class Table>
   SANDGLASS_LOOP void loop(ContactBlockOf<Real>& b, int first, const Table& table) const {

@@ -5,7 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 using namespace sandglass;
 using namespace sandglass::testing;
@@ -97,4 +99,39 @@ TEST_CASE("a fast listed grain shortens the step of a Hertzian scene") {
   fast.fills.at(0).how.parameters.set("velocities", std::vector<Vec3>{Vec3(20, 0, 0)});
   // Collision time goes with speed^(-1/5); two grains may meet at twice 20 m/s instead of 1 mm/s.
   CHECK(DemSolver(fast).stepSize() == Approx(DemSolver(slow).stepSize() * std::pow(1e-3 / 40.0, 0.2)));
+}
+
+TEST_CASE("a dashpot or friction faster than the collision shortens the step, and no energy comes of it") {
+  SceneText t;
+  t.elasticity = "youngs_modulus = \"50 MPa\"\npoisson_ratio = 0.25";
+  t.stepsPerContact = 10;
+  SECTION("a viscoelastic dissipation time") {
+    t.normal = R"({ law = "hertz", dissipation_time = "1 ms" })";
+  }
+  SECTION("a Hertzian dashpot by its rate") {
+    t.normal = "{ law = \"hertz\", damping_rate = \"1e10 1/(m*s)\" }";
+  }
+  SECTION("incremental friction with a stiffness of its own") {
+    t.tangential = R"({ law = "walton", friction = 0.5, stiffness = "1e7 N/m" })";
+    // Ten steps in 2 pi sqrt(2/7 m / K0), m the reduced mass.
+    CHECK(DemSolver(t.scene()).stepSize() == Approx(0.1 *
+                                                    std::sqrt(2.0 / 7.0 * 0.5 * 2500.0 * 1e-9 / 1e7 * 4.0 /
+                                                              3.0 * std::pow(std::numbers::pi, 3)) *
+                                                    2.0));
+  }
+  const auto meet = [&](double stepsPerContact) {
+    t.stepsPerContact = stepsPerContact;
+    const Scene scene = t.scene();
+    DemSolver solver(scene, {1});
+    solver.add({grain(0, {-1e-3, 0, 0}, {0.1, 0.05, 0}, {0, 0, 100}),
+                grain(1, {1.00001e-3, 0, 0}, {-0.1, 0, 0}, {50, 0, 0})});
+    const double before = solver.energies().total();
+    solver.advance(std::llround(2e-4 / solver.stepSize()));
+    const Energies after = solver.energies();
+    CHECK(after.total() < before);
+    return after;
+  };
+  const Energies coarse = meet(10), fine = meet(200);
+  CHECK(coarse.rotational == Approx(fine.rotational).epsilon(0.01));
+  CHECK(coarse.total() == Approx(fine.total()).epsilon(0.01));
 }
