@@ -31,6 +31,7 @@ SceneText royPair(const std::string& tangential = R"({ law = "none" })") {
 
 struct Meeting {
   double touch = -1, deepest = 0, forceEnd = -1, parting = -1; ///< [s], [m], [s], [s]
+  double residual = -1;                                        ///< overlap at forceEnd [m]
   std::vector<GrainSeed> end;
   double energyBefore = 0, translation = 0, spin = 0, spinMomentum = 0;
 };
@@ -51,8 +52,10 @@ Meeting meet(const SceneText& text, const Vec3& a, const Vec3& b, double speed, 
     if (overlap > 0 && m.touch < 0) m.touch = now;
     m.deepest = std::max(m.deepest, overlap);
     if (m.touch >= 0 && m.parting < 0 && overlap <= 0) m.parting = now;
-    if (m.touch >= 0 && m.forceEnd < 0 && now > m.touch + 1e-3 && (p[0].velocity - before).norm() == 0.0)
+    if (m.touch >= 0 && m.forceEnd < 0 && now > m.touch + 1e-3 && (p[0].velocity - before).norm() == 0.0) {
       m.forceEnd = now;
+      m.residual = overlap;
+    }
     before = p[0].velocity;
   }
   m.end = solver.present();
@@ -73,6 +76,8 @@ TEST_CASE("V1: the aligned pair of the 1998 source, with the latching spring as 
   CHECK(m.touch == Approx(0.0300).margin(1.01e-4));
   CHECK(m.deepest == Approx(0.07454).epsilon(0.002));
   CHECK(m.forceEnd == Approx(0.0502).margin(2e-4));
+  CHECK(m.residual ==
+        Approx(0.03531).margin(2 * 7.25e-4)); // the first step without force: parts by 2 x 3.627 m/s
   CHECK(m.parting == Approx(0.0551).margin(2e-4));
   CHECK(m.end[0].velocity.x() == Approx(-3.627).epsilon(0.001));
   CHECK(m.end[1].velocity.x() == Approx(3.627).epsilon(0.001));
