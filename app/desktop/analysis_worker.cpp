@@ -49,6 +49,12 @@ void AnalysisWorker::forget() {
   results_.clear();
 }
 
+void AnalysisWorker::setSimulationRuns(bool runs) {
+  const std::lock_guard lock(mutex_);
+  simulationRuns_ = runs;
+  changed_.notify_all();
+}
+
 bool AnalysisWorker::isIdle() const {
   const std::lock_guard lock(mutex_);
   return done_ == asked_ && results_.empty();
@@ -90,7 +96,7 @@ void AnalysisWorker::work() {
     ++done_;
     if (!order->beside) continue;
     const std::chrono::duration<double> rest(std::max(shortestInterval, restShare * seconds));
-    changed_.wait_for(lock, rest, [&] { return quit_ || simulationPauses(); });
+    changed_.wait_for(lock, rest, [&] { return quit_ || !simulationRuns_ || simulationPauses(); });
   }
 }
 

@@ -30,6 +30,8 @@ public:
 
   /// Drops all orders and results, that which is being worked on too: another run is shown.
   void forget();
+  /// It rests after an order beside a simulation, and no longer once none goes on.
+  void setSimulationRuns(bool runs);
 
   struct Outcome {
     std::optional<analysis::Results> results; ///< curves begin their definitions with the frame's time
@@ -59,7 +61,7 @@ private:
   std::map<QString, Order> orders_;
   std::map<QString, std::uint64_t> epochs_;
   std::map<QString, Outcome> results_;
-  bool quit_ = false;
+  bool simulationRuns_ = false, quit_ = false;
   std::thread thread_;
 };
 

@@ -116,6 +116,7 @@ private:
   void onChecked(const SceneChecker::Outcome& outcome);
   void onSceneEdited(const QString& before, const QString& after, const QString& what);
   void showState();
+  void spareSimulations(); ///< drawing and analyses leave their cores to those that go on
 
   // Pictures and curves (window_pictures.cpp).
   void requestPicture(bool interactive = false);

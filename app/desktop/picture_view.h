@@ -24,6 +24,9 @@ public:
   std::uint64_t pictures() const { return pictures_; } ///< shown so far
   QSize pixels() const { return size() * devicePixelRatioF(); }
 
+  /// The camera is set by others: a wheel that still turns does not set it again.
+  void forgetWheel() { settle_.stop(); }
+
   // The camera moves of the keyboard; angles in degrees, shares of the view height.
   void orbitBy(double azimuth, double elevation);
   void zoomBy(double factor);

@@ -121,6 +121,7 @@ void Session::start(bool paused) {
   }
   resuming_ = options.resume;
   running_ = true;
+  knownPaused_ = paused;
   simulation_ = std::make_unique<Simulation>(*current_.scene, options, current_.store);
   connect(simulation_.get(), &Simulation::changed, this, &Session::fetch);
   connect(simulation_.get(), &Simulation::finished, this, &Session::ended);
@@ -134,6 +135,7 @@ void Session::start(bool paused) {
 void Session::pause(bool on) {
   if (!runs()) return;
   simulation_->pause(on);
+  knownPaused_ = on;
   Q_EMIT stateChanged();
 }
 
@@ -141,6 +143,7 @@ void Session::step(int steps) {
   if (!runs()) start(true);
   if (!runs()) return;
   simulation_->step(steps);
+  knownPaused_ = true;
   Q_EMIT stateChanged();
 }
 
@@ -225,6 +228,10 @@ void Session::fetch() {
   if (frame) {
     live_ = *frame;
     Q_EMIT frameArrived();
+  }
+  if (knownPaused_ != isPaused()) { // by itself, at the step of a branch
+    knownPaused_ = isPaused();
+    Q_EMIT stateChanged();
   }
 }
 

@@ -87,7 +87,7 @@ private:
   FramePtr live_;
   std::optional<Progress> progress_;
   quint64 opening_ = 0, opened_ = 0; ///< the newest order wins
-  bool resuming_ = false, running_ = false;
+  bool resuming_ = false, running_ = false, knownPaused_ = false;
   double speedLimit_ = 0;
   std::int64_t pauseAt_ = -1; ///< of the next start
   QThreadPool pool_;

@@ -89,6 +89,7 @@ void MainWindow::setRunIcon(bool running) {
 }
 
 void MainWindow::usePreset(const std::string& preset) {
+  picture_->forgetWheel();
   now_->view.camera.preset = preset;
   keepView("look from " + QString::fromStdString(preset));
   requestPicture();

@@ -53,6 +53,14 @@ Document* MainWindow::addDocument() {
   return document;
 }
 
+void MainWindow::spareSimulations() {
+  const bool any = std::any_of(documents_.begin(), documents_.end(), [](const auto& document) {
+    return document->session->runs() && !document->session->isPaused();
+  });
+  drawing_->setSimulationRuns(any);
+  analyses_->setSimulationRuns(any);
+}
+
 void MainWindow::connectSession(Document* d) {
   Session* s = d->session.get();
   const auto here = [this, d] { return now_ == d; };
@@ -60,9 +68,7 @@ void MainWindow::connectSession(Document* d) {
   connect(s, &Session::openFailed, this, &MainWindow::onOpenFailed);
   connect(s, &Session::stateChanged, this, [this, here] {
     if (here()) onState();
-    drawing_->setSimulationRuns(std::any_of(documents_.begin(), documents_.end(), [](const auto& other) {
-      return other->session->runs() && !other->session->isPaused();
-    }));
+    spareSimulations();
   });
   connect(s, &Session::frameArrived, this, [this, d, here] {
     if (here()) onFrame();
@@ -114,6 +120,7 @@ void MainWindow::closeTab(int index) {
   now_ = before_ = nullptr;
   session_ = nullptr;
   documents_.erase(documents_.begin() + index); // waits for the checkpoint
+  spareSimulations();
   tabBar_->setVisible(tabs() > 1);
   enter(documents_[static_cast<std::size_t>(std::clamp(tabBar_->currentIndex(), 0, tabs() - 1))].get());
 }

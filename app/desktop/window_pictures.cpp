@@ -234,6 +234,7 @@ void MainWindow::keepView(const QString& what) {
 }
 
 void MainWindow::applyView(const vis::View& view) {
+  picture_->forgetWheel();
   now_->view = view;
   viewPanel_->setView(view);
   const QSignalBlocker blocker(commands_->action("view.orthographic"));

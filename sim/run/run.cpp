@@ -253,6 +253,13 @@ RunOutcome Run::loop() {
     if (onSavedFrame) onSavedFrame(frame);
   };
 
+  // Before the frame of that step is offered, so that who sees it can let the run go on.
+  const auto pauseIfDue = [&] {
+    if (solver.step() != run.options.pauseAt) return;
+    run.options.pauseAt = -1;
+    paused_ = true;
+  };
+
   const bool fresh = solver.step() == 0 && recorder.frameCount() == 0;
   stages.begin();
   if (fresh) {
@@ -260,6 +267,7 @@ RunOutcome Run::loop() {
     save();
     run.checkpoint();
   }
+  pauseIfDue();
   live(true);
   bool shown = false; // the state in which the run was paused
   Pace pace;
@@ -272,10 +280,6 @@ RunOutcome Run::loop() {
     }
     takeChanges();
     if (stages.applyEvents()) shown = false;
-    if (solver.step() == run.options.pauseAt) {
-      run.options.pauseAt = -1;
-      paused_ = true;
-    }
     std::int64_t allowed = std::max<std::int64_t>(1, static_cast<std::int64_t>(run.groupSteps));
     if (paused_) {
       pace.restart(0, 0);
@@ -303,6 +307,7 @@ RunOutcome Run::loop() {
     if (paused_ && steps < allowed) single_ += static_cast<int>(allowed - steps);
     run.advance(steps);
     shown = false;
+    pauseIfDue();
     const auto left = solver.takeLeft();
     recorder.left(left, solver.stepSize());
     stages.left(left);

@@ -45,12 +45,16 @@ constexpr double endless = 1000;
 template <class Condition> bool waitFor(Condition&& condition, double seconds = 120) {
   QElapsedTimer since;
   since.start();
-  while (!condition()) {
+  for (;;) {
+    // What is on its way by then may undo it, and a slow machine handles less of it in one go.
+    if (condition()) {
+      QCoreApplication::processEvents(QEventLoop::AllEvents, 1000);
+      if (condition()) return true;
+    }
     if (since.elapsed() > 1000 * seconds) return false;
     QCoreApplication::processEvents(QEventLoop::AllEvents, 5);
     QThread::msleep(1);
   }
-  return true;
 }
 
 inline void handleEvents(double seconds) {
@@ -87,6 +91,12 @@ public:
     QTest::keyClick(window.get(), static_cast<Qt::Key>(key), modifiers);
   }
   desktop::Session& session() { return window->session(); }
+  /// Undoes until the condition holds. What is typed slowly is several steps of undo, what is typed fast one.
+  template <class Condition> bool undoUntil(Condition&& condition) {
+    for (int k = 0; k < 100 && !condition(); ++k)
+      key(Qt::Key_Z, Qt::ControlModifier);
+    return condition();
+  }
 
   // What hands do: a widget is focused, as the tabulator does, and gets keys; or it gets the mouse.
   void click(const char* name) {

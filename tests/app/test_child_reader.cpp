@@ -116,8 +116,8 @@ TEST_CASE("readers that hang, never stop talking, crash or lie are stopped and t
              Catch::Contains("took longer than 1 s"));
   CHECK_THAT(refusal(folder / "a.vtp", limits, script(folder, "exec yes M")),
              Catch::Contains("and was stopped"));
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
-  limits.wallSeconds = 20;
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(120));
+  limits.wallSeconds = 120; // what ends by itself does so on a busy machine as well
   CHECK_THAT(refusal(folder / "a.vtp", limits, script(folder, "kill -SEGV $$")), Catch::Contains("gave up"));
   CHECK_THAT(refusal(folder / "a.vtp", limits, script(folder, "printf Mlies")),
              Catch::Contains("is no mesh"));

@@ -153,7 +153,7 @@ TEST_CASE("Two runs side by side turn together, are picked apart, and come back 
 TEST_CASE("Two runs side by side go on at the same time", "[desktop][beside]") {
   TemporaryFolder folder("desktop-beside-live");
   Desktop desktop(folder / "first");
-  const auto scene = writeBed(folder / "bed.toml", 5, 5, 30);
+  const auto scene = writeBed(folder / "bed.toml", 5, 5, endless);
   REQUIRE(desktop.open(scene));
   desktop.key(Qt::Key_Space);
   REQUIRE(waitFor([&] { return desktop.window->shownFrame() && desktop.window->shownFrame()->time > 0; }));

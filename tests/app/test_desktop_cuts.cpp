@@ -107,9 +107,7 @@ TEST_CASE("A box and a cylinder cut the picture as they are typed; what is wrong
   opened.keepPicture("cuts.png");
 
   desktop.window->setFocus();
-  for (int k = 0; k < 30 && !opened.view().clipBoxes.empty(); ++k)
-    desktop.key(Qt::Key_Z, Qt::ControlModifier);
-  REQUIRE(opened.view().clipBoxes.empty());
+  REQUIRE(desktop.undoUntil([&] { return opened.view().clipBoxes.empty(); }));
   REQUIRE(opened.view().clipCylinders.empty());
   REQUIRE_FALSE(desktop.child<QAbstractButton>("clipBox")->isChecked());
 }
@@ -164,7 +162,7 @@ TEST_CASE("A rectangle drawn with the mouse chooses grains, by the clip too, and
   const vis::Camera before = opened.view().camera;
   const std::size_t all = desktop.window->shownFrame()->size();
   rectangle({1, 1}, corner);
-  waitFor([&] { return chosen.size() == all; }, 5);
+  waitFor([&] { return chosen.size() == all; });
   INFO(desktop.window->bannerText().toStdString());
   REQUIRE(chosen.size() == all);                           // all of them, hidden ones too
   CHECK(opened.view().camera.position == before.position); // the camera stays

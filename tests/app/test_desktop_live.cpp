@@ -28,6 +28,13 @@ bool settled(Desktop& desktop) {
   return waitFor([&] { return desktop.window->isSettled(); });
 }
 
+/// Waits until the run that goes on has gone on for so long [s].
+bool runsFor(Desktop& desktop, double duration) {
+  const auto time = [&] { return desktop.session().liveFrame() ? desktop.session().liveFrame()->time : 0; };
+  const double from = time();
+  return waitFor([&] { return time() > from + duration; });
+}
+
 void type(QLineEdit* line, const QString& text) {
   line->setFocus();
   line->selectAll();
@@ -41,15 +48,18 @@ TEST_CASE("Gravity set by the button while it runs is in the scene, which gives 
   TemporaryFolder folder("desktop-live");
   {
     Desktop desktop(folder / "live");
-    REQUIRE(desktop.open(writeBed(folder / "bed.toml", 8, 8, 0.1)));
+    REQUIRE(desktop.open(writeBed(folder / "bed.toml", 8, 8, endless)));
     desktop.key(Qt::Key_F5);
-    REQUIRE(
-        waitFor([&] { return desktop.session().liveFrame() && desktop.session().liveFrame()->time > 0.01; }));
+    REQUIRE(runsFor(desktop, 0.01));
     desktop.child<QDoubleSpinBox>("gravity.x")->setValue(4);
     QTest::mouseClick(desktop.child<QPushButton>("applyGravity"), Qt::LeftButton);
+    const auto& events = desktop.session().current().scene->events;
+    REQUIRE(waitFor([&] { return events.size() == 1; }));
+    REQUIRE(runsFor(desktop, 0.05));
+    desktop.key(Qt::Key_E, Qt::ShiftModifier);
     REQUIRE(waitFor([&] { return desktop.session().progress() && !desktop.session().runs(); }));
-    REQUIRE(desktop.session().current().scene->events.size() == 1);
-    REQUIRE(desktop.session().current().scene->events[0].gravity->x() == 4);
+    REQUIRE(events.size() == 2); // and the end of the stage
+    REQUIRE(events[0].gravity->x() == 4);
     REQUIRE(desktop.child<QLabel>("events")->text().contains("gravity (4, "));
     REQUIRE(desktop.window->bannerText().toStdString() == "");
   }
@@ -70,7 +80,7 @@ TEST_CASE("Gravity set by the button while it runs is in the scene, which gives 
 TEST_CASE("The strength of a wind set by keys and mouse is in the scene, which gives the same bits again",
           "[desktop]") {
   TemporaryFolder folder("desktop-wind");
-  const auto scene = writeBed(folder / "bed.toml", 8, 8, 0.1);
+  const auto scene = writeBed(folder / "bed.toml", 8, 8, endless);
   std::ofstream(scene, std::ios::app) << R"fields(
 [[field]]
 name = "breeze"
@@ -83,6 +93,7 @@ law = "linear"
 linear_coefficient = "1e-4 kg/(m*s)"
 )fields";
   std::int64_t changed = 0;
+  EventSpec end;
   {
     Desktop desktop(folder / "live");
     REQUIRE(desktop.open(scene));
@@ -90,14 +101,18 @@ linear_coefficient = "1e-4 kg/(m*s)"
     REQUIRE_FALSE(apply->isEnabled()); // nothing runs
     desktop.key(Qt::Key_2, Qt::ControlModifier);
     desktop.key(Qt::Key_F5);
-    REQUIRE(
-        waitFor([&] { return desktop.session().liveFrame() && desktop.session().liveFrame()->time > 0.01; }));
+    REQUIRE(runsFor(desktop, 0.01));
     desktop.choose("fieldToChange", "breeze");
     desktop.type("fieldFactor", "-3");
     desktop.click("applyField");
-    REQUIRE(waitFor([&] { return desktop.session().progress() && !desktop.session().runs(); }));
     const auto& events = desktop.session().current().scene->events;
-    REQUIRE(events.size() == 1);
+    REQUIRE(waitFor([&] { return events.size() == 1; }));
+    REQUIRE(runsFor(desktop, 0.05));
+    desktop.click("endStage");
+    REQUIRE(waitFor([&] { return desktop.session().progress() && !desktop.session().runs(); }));
+    REQUIRE(events.size() == 2);
+    end = events[1];
+    REQUIRE(end.endStage);
     REQUIRE(events[0].fields.size() == 1);
     CHECK(events[0].fields[0].field == "breeze");
     CHECK(events[0].fields[0].factor == -3);
@@ -111,7 +126,9 @@ linear_coefficient = "1e-4 kg/(m*s)"
   options.threads = 2;
   Run(readScene((folder / "live" / "scene.toml").string()), options).execute();
   options.folder = folder / "calm";
-  Run(readScene(scene.string()), options).execute();
+  Scene unchanged = readScene(scene.string());
+  unchanged.events = {end};
+  Run(unchanged, options).execute();
   const auto live = openFrames(folder / "live"), again = openFrames(folder / "again"),
              calm = openFrames(folder / "calm");
   REQUIRE(live->size() == again->size());
@@ -122,10 +139,10 @@ linear_coefficient = "1e-4 kg/(m*s)"
     a.provenance.erase("scene"); // changed with the first event
     b.provenance.erase("scene");
     requireEqual(a, b);
-    const FramePtr unchanged = calm->load(k);
-    if (a.step <= changed) CHECK(sameBits(a.position, unchanged->position));
+    const FramePtr still = calm->load(k);
+    if (a.step <= changed) CHECK(sameBits(a.position, still->position));
     for (std::size_t i = 0; i < a.size(); ++i)
-      reverse += unchanged->position[i].x() - a.position[i].x();
+      reverse += still->position[i].x() - a.position[i].x();
   }
   CHECK(reverse > 0); // blown the other way
 }
@@ -154,6 +171,7 @@ TEST_CASE("A branch goes on from the frame shown, in a tab of its own, paused th
   }));
   Frame live = *desktop.session().liveFrame();
   REQUIRE(sameBits(live.position, from->position));
+  REQUIRE(waitFor([&] { return desktop.window->commands().action("run.start")->text() == "&Go on"; }));
   QTest::mouseClick(desktop.child<QPushButton>("applyGravity"), Qt::LeftButton);
   desktop.key(Qt::Key_Space);
   REQUIRE(waitFor([&] { return !desktop.session().runs(); }));
@@ -193,9 +211,7 @@ TEST_CASE("A field edited in the form shows at once, is undone, and a fault stan
   desktop.key(Qt::Key_F5); // nothing runs that is not what is written
   REQUIRE_FALSE(desktop.session().runs());
   REQUIRE(desktop.window->bannerText().contains("spacing"));
-  for (int k = 0; k < 4 && text() != before; ++k)
-    desktop.key(Qt::Key_Z, Qt::ControlModifier);
-  REQUIRE(text() == before);
+  REQUIRE(desktop.undoUntil([&] { return text() == before; }));
   REQUIRE(
       waitFor([&] { return desktop.window->isSettled() && desktop.window->shownFrame()->size() == grains; }));
   desktop.key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
@@ -275,8 +291,10 @@ TEST_CASE("A session brings tabs, views, moments and edits back", "[desktop]") {
   Desktop desktop(folder / "unused");
   desktop.window->open(file);
   REQUIRE(desktop.window->tabs() == 2);
-  REQUIRE(waitFor([&] { return desktop.window->shownFrame() && desktop.window->isSettled(); }));
-  REQUIRE(desktop.window->shownFrame()->time == Approx(0.02));
+  REQUIRE(waitFor([&] {
+    return desktop.window->isSettled() && desktop.window->shownFrame() &&
+           desktop.window->shownFrame()->time == Approx(0.02);
+  }));
   REQUIRE((desktop.window->view().camera.position - view.camera.position).norm() < 1e-12);
   desktop.window->showTab(1);
   REQUIRE(waitFor([&] { return desktop.session().isOpen() && desktop.window->isSettled(); }));
@@ -301,19 +319,24 @@ TEST_CASE("Closing with a run going asks, and keeps it when the answer is no", "
   desktop::MainWindow window(options);
   window.show();
   QApplication::setActiveWindow(&window);
-  window.open(QString::fromStdString(writeBed(folder / "bed.toml", 6, 6, 50).string()));
+  window.open(QString::fromStdString(writeBed(folder / "bed.toml", 6, 6, endless).string()));
   REQUIRE(waitFor([&] { return window.session().isOpen() && !window.session().isOpening(); }));
   QTest::keyClick(&window, Qt::Key_F5);
   REQUIRE(waitFor([&] { return window.session().liveFrame() != nullptr; }));
   int asked = 0;
   const auto answer = [&](QMessageBox::StandardButton button) {
-    QTimer::singleShot(100, [&asked, button] {
+    auto* look = new QTimer(&window); // again and again: a busy machine takes its time to show a box
+    QObject::connect(look, &QTimer::timeout, look, [&asked, button, look] {
       for (auto* widget : QApplication::topLevelWidgets())
         if (auto* box = qobject_cast<QMessageBox*>(widget); box && box->isVisible()) {
           ++asked;
+          look->deleteLater();
+          look->stop();
           QTest::mouseClick(box->button(button), Qt::LeftButton);
+          return;
         }
     });
+    look->start(100);
   };
   answer(QMessageBox::Cancel);
   window.close();

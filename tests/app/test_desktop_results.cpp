@@ -23,14 +23,23 @@ TEST_CASE("A run gives the same bits with the window open and closed", "[desktop
   {
     Desktop desktop(folder / "open", 2);
     REQUIRE(desktop.open(scene));
-    desktop.key(Qt::Key_F5);
-    int moves = 0;
-    REQUIRE(waitFor([&] {
-      desktop.key(Qt::Key_Left, Qt::ControlModifier); // keep the drawing thread busy
-      if (++moves == 20) desktop.key(Qt::Key_Space);
-      if (moves == 40) desktop.key(Qt::Key_Space);
-      return desktop.session().progress() && !desktop.session().runs();
-    }));
+    auto& session = desktop.session();
+    const auto turn = [&] { desktop.key(Qt::Key_Left, Qt::ControlModifier); }; // the drawing thread is busy
+    desktop.key(Qt::Key_S);                                                    // begins paused
+    desktop.key(Qt::Key_S, Qt::ShiftModifier);
+    REQUIRE(waitFor([&] { return turn(), session.liveFrame() && session.liveFrame()->step == 101; }));
+    desktop.key(Qt::Key_Space);
+    for (double until = 0.02; until < 0.09;
+         until += 0.02) { // paused wherever the keys fall, if it still runs
+      REQUIRE(waitFor([&] { return turn(), !session.runs() || session.liveFrame()->time > until; }));
+      if (!session.runs()) break;
+      desktop.key(Qt::Key_Space);
+      for (int k = 0; k < 20; ++k)
+        turn(), handleEvents(0.002);
+      if (session.isPaused()) desktop.key(Qt::Key_Space);
+    }
+    REQUIRE(waitFor([&] { return turn(), !session.runs(); }));
+    REQUIRE(session.progress()->fraction == 1);
     REQUIRE(desktop.picture().pictures() > 0);
   }
   const auto open = openFrames(folder / "open"), closed = openFrames(folder / "closed");

@@ -148,7 +148,7 @@ values = [2.02, 3]
   REQUIRE(panel->isVisible());
   auto* diagram = panel->diagram();
   REQUIRE(diagram->diagram().spots.size() == 6);
-  const auto settled = [&] { return waitFor([&] { return desktop.window->isSettled(); }, 60); };
+  const auto settled = [&] { return waitFor([&] { return desktop.window->isSettled(); }); };
 
   // Columns are chosen with keys.
   desktop.choose("sweepX", "gap");
@@ -200,7 +200,7 @@ values = [2.02, 3]
   // The run behind it is computed again, with its frames, in a tab of its own.
   QTest::mouseClick(desktop.child<QPushButton>("sweepOpen"), Qt::LeftButton);
   REQUIRE(desktop.window->tabs() == 2);
-  REQUIRE(waitFor([&] { return desktop.session().progress() && !desktop.session().runs(); }, 60));
+  REQUIRE(waitFor([&] { return desktop.session().progress() && !desktop.session().runs(); }));
   REQUIRE(desktop.window->bannerText().toStdString() == "");
   REQUIRE_FALSE(panel->isVisible());
   const auto frames = openFrames(desktop.session().current().runFolder);
@@ -235,7 +235,7 @@ TEST_CASE(
   REQUIRE(waitFor([&] { return desktop.window->isSettled() && desktop.window->shownFrame(); }));
   desktop.key(Qt::Key_0, Qt::AltModifier);
   auto* panel = desktop.child<desktop::StatePanel>("statePanel");
-  REQUIRE(waitFor([&] { return panel->isVisible() && !panel->sentence().isEmpty(); }, 60));
+  REQUIRE(waitFor([&] { return panel->isVisible() && !panel->sentence().isEmpty(); }));
   INFO(panel->sentence().toStdString());
   CHECK(panel->sentence().contains("vortex: "));
   CHECK(panel->sentence().contains("confidence"));
@@ -259,6 +259,6 @@ TEST_CASE(
   auto* pages = desktop.child<QTabWidget>("statePages");
   QTest::mouseClick(pages->tabBar(), Qt::LeftButton, {}, pages->tabBar()->tabRect(1).center());
   REQUIRE(panel->chart()->isVisible());
-  REQUIRE(waitFor([&] { return panel->chart()->charts() > 0 && desktop.window->isSettled(); }, 60));
+  REQUIRE(waitFor([&] { return panel->chart()->charts() > 0 && desktop.window->isSettled(); }));
   keepPicture(desktop, folder / "states.png", "states.png");
 }

@@ -13,6 +13,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <fstream>
 #include <thread>
 
@@ -302,7 +303,8 @@ TEST_CASE("Pausing and single steps", "[run]") {
   live.onLiveFrame = [&](const FramePtr& frame) { step = frame->step; };
   std::thread worker([&] { live.execute(); });
   const auto wait = [&](std::int64_t wanted) {
-    for (int i = 0; i < 2000 && step != wanted; ++i)
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(120); // a busy machine
+    while (step != wanted && std::chrono::steady_clock::now() < limit)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return step.load();
   };
