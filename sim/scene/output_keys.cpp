@@ -93,7 +93,7 @@ const Keys& accuracyKeys() {
       {.name = "skin",
        .type = number,
        .unit = "1",
-       .description = "of neighbour lists, as a share of the mean diameter",
+       .description = "of neighbour lists, as a share of the mean diameter of the finest species",
        .fallback = 0.02,
        .minimum = 0,
        .maximum = 2,

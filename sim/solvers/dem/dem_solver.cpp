@@ -61,14 +61,15 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
         "steps_per_contact",
         choice.step, choice.stableLimit, choice.rule));
   dt_ = choice.step;
-  double diameter = 0.0, smallest = 1e300;
+  double diameter = 0.0, finest = 1e300, smallest = 1e300;
   for (const Species& s : scene.species) {
     const SizeRange range = sizeRange(scene, s);
     diameter += range.meanDiameter / static_cast<double>(scene.species.size());
+    finest = std::min(finest, range.meanDiameter);
     smallest = std::min(smallest, range.smallest);
   }
   meanDiameter_ = diameter;
-  skin_ = scene.accuracy.skin * diameter;
+  skin_ = scene.accuracy.skin * finest; // a skin as thick as fine grains would list each with dozens
   smallestRadius_ = 0.5 * smallest;
   grains_.keep(laws_.turning(), list_.periodic());
   pairForces_.watchOverlap(scene.accuracy.maximumOverlap, smallestRadius_);
