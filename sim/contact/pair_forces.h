@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace sandglass {
@@ -24,6 +25,9 @@ struct PairEvent {
 
 /// The deepest overlap met in a step, for the watchdog. Ties go to the smaller key, so threads do not matter.
 struct DeepestOverlap {
+  /// Instead of a share: a wall is touched in more places than can be kept.
+  static constexpr double crowded = std::numeric_limits<double>::infinity();
+
   double share = 0;                ///< of the smaller radius
   std::int64_t idA = -1, idB = -1; ///< idB < 0: a wall
   int wall = -1;

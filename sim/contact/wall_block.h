@@ -35,6 +35,7 @@ struct WallBlock {
     int begun;        ///< of them
   };
   std::vector<Change> changes;
+  std::int32_t crowded = -1; ///< an owner that touches its wall in more places than there are slots; -1: none
 
   /// From velocities (in v_t) and spins of the grains, relative to the wall's velocity there, to relative
   /// motion at the contacts; and the columns that follow from radii and masses. `radiusArm`: slip is that of

@@ -79,8 +79,10 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
     offsets_[i + 1] += offsets_[i];
 
   const std::size_t size = laws_.historySize();
-  feature_.assign(candidates_.size() * slots, -1);
-  history_.assign(candidates_.size() * slots * size, 0.0);
+  for (const SolverWall& wall : walls)
+    slots_ = std::max(slots_, wall.shape->mostTouches());
+  feature_.assign(candidates_.size() * slots_, -1);
+  history_.assign(candidates_.size() * slots_ * size, 0.0);
   load_.assign(candidates_.size() * 6, 0.0);
   moving_ = std::any_of(walls.begin(), walls.end(), [](const SolverWall& w) { return w.motion != nullptr; });
   counting_ = std::any_of(walls.begin(), walls.end(), [](const SolverWall& w) { return w.counted; });
@@ -91,7 +93,7 @@ void WallContacts::build(const GrainStore& grains, const std::vector<SolverWall>
   for (std::size_t k = 0; k < candidates_.size(); ++k)
     for (std::size_t at = rows.first(ids_[k]); at < oldIds.size() && oldIds[at] == ids_[k]; ++at) {
       if (oldCandidates[at].wall != candidates_[k].wall || oldFeature[at] < 0) continue;
-      for (int slot = 0; slot < slots; ++slot) {
+      for (int slot = 0; slot < slots_; ++slot) {
         const std::size_t from = slot * oldCandidates.size() + at, to = slot * candidates_.size() + k;
         feature_[to] = oldFeature[from];
         std::copy_n(oldHistory.data() + from * size, size, history_.data() + to * size);
@@ -122,7 +124,7 @@ std::vector<std::vector<WallContacts::Found>> WallContacts::findNear(const Grain
           walls[w].touches(x, reach, touches);
           if (touches.count == 0) continue;
           // The distance to a wall changes by no more than the way gone.
-          double slack = walls[w].motion || touches.count == slots ? 0.0 : touches.at[0].distance - touching;
+          double slack = walls[w].motion || touches.count >= slots_ ? 0.0 : touches.at[0].distance - touching;
           for (int t = 1; t < touches.count; ++t)
             slack = std::min(slack, touches.at[t].distance - touching);
           // A little less than that, for round-off.
@@ -135,20 +137,20 @@ std::vector<std::vector<WallContacts::Found>> WallContacts::findNear(const Grain
 }
 
 int WallContacts::matchHistories(std::int32_t candidate, const WallShape::Touches& now, int* source) const {
-  std::int32_t before[slots];
-  for (int s = 0; s < slots; ++s)
+  std::int32_t before[mostSlots];
+  for (int s = 0; s < slots_; ++s)
     before[s] = feature_[row(candidate, s)];
-  bool taken[slots] = {};
+  bool taken[mostSlots] = {};
   for (int c = 0; c < now.count; ++c) {
     source[c] = -1;
-    for (int s = 0; s < slots; ++s)
+    for (int s = 0; s < slots_; ++s)
       if (before[s] == now.at[c].feature) {
         source[c] = s;
         taken[s] = true;
       }
   }
   for (int c = 0; c < now.count; ++c) // sliding from a face on to its edge: the contact goes on
-    for (int s = 0; s < slots && source[c] < 0; ++s)
+    for (int s = 0; s < slots_ && source[c] < 0; ++s)
       if (before[s] >= 0 && !taken[s]) {
         source[c] = s;
         taken[s] = true;
@@ -163,6 +165,7 @@ std::int32_t WallContacts::gather(const GrainStore& grains, const std::vector<So
   b.size = 0;
   b.oneType = true;
   block.changes.clear();
+  block.crowded = -1;
   WallShape::Touches now;
   for (; k < end; ++k) {
     // Those near a wall are few and far between in memory.
@@ -173,13 +176,17 @@ std::int32_t WallContacts::gather(const GrainStore& grains, const std::vector<So
     if (before < 0 && parted(grains, k)) continue; // nothing then, nothing now
     const Candidate& at = candidates_[k];
     const SolverWall& wall = walls[at.wall];
-    now.count = 0;
+    now.count = now.lost = 0;
     if (wall.active) {
       const Quad& place = grains.place[at.grain];
       wall.touches(place.vec(), place.w + laws_.range(), now);
     }
+    if (now.lost > 0 || now.count > slots_) {
+      block.crowded = k;
+      now.count = std::min(now.count, slots_);
+    }
     if (b.size + now.count > WallBlock::capacity) break;
-    int source[slots] = {};
+    int source[mostSlots] = {};
     const bool same =
         now.count == 1 && before == now.at[0].feature && feature_[row(k, 1)] < 0; // nearly always
     if (!same && (now.count > 0 || before >= 0))
@@ -247,7 +254,7 @@ void WallContacts::remember(const WallBlock& block) {
       h[q] = block.contact.history[q][c];
   }
   for (const WallBlock::Change& change : block.changes) {
-    for (int s = 0; s < slots; ++s)
+    for (int s = 0; s < slots_; ++s)
       feature_[row(change.owner, s)] = s < change.count ? block.feature[change.first + s] : -1;
   }
 }
@@ -289,6 +296,10 @@ void WallContacts::evaluate(const GrainStore& grains, const std::vector<SolverWa
       if (counted(change.owner, walls)) begun_[change.owner] = change.begun;
   }
   if (!s.keepHistory) remember(s.block);
+  if (s.block.crowded >= 0) {
+    const Candidate& at = candidates_[s.block.crowded];
+    s.deepest.take(DeepestOverlap::crowded, grains.id[at.grain], -1, at.wall);
+  }
   if (s.block.greatestShare() < s.deepest.share) return;
   for (int c = 0; c < b.size; ++c) {
     const Candidate& at = candidates_[s.block.owner[c]];
@@ -354,22 +365,22 @@ void WallContacts::tally(std::vector<SolverWall>& walls, double dt) const {
 }
 
 std::vector<double> WallContacts::histories() const {
-  return transposed(history_, slots, candidates_.size(), laws_.historySize());
+  return transposed(history_, slots_, candidates_.size(), laws_.historySize());
 }
 
 std::vector<std::int32_t> WallContacts::features() const {
-  return transposed(feature_, slots, candidates_.size(), 1);
+  return transposed(feature_, slots_, candidates_.size(), 1);
 }
 
 bool WallContacts::setHistories(const std::vector<double>& all) {
   if (all.size() != history_.size()) return false;
-  history_ = transposed(all, candidates_.size(), slots, laws_.historySize());
+  history_ = transposed(all, candidates_.size(), slots_, laws_.historySize());
   return true;
 }
 
 bool WallContacts::setFeatures(const std::vector<std::int32_t>& all) {
   if (all.size() != feature_.size()) return false;
-  feature_ = transposed(all, candidates_.size(), slots, 1);
+  feature_ = transposed(all, candidates_.size(), slots_, 1);
   return true;
 }
 

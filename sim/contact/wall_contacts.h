@@ -81,7 +81,7 @@ public:
   std::size_t size() const { return candidates_.size(); }
 
 private:
-  static constexpr int slots = WallShape::maxTouches;
+  static constexpr int mostSlots = WallShape::maxTouches;
   struct Candidate {
     std::int32_t grain = 0;
     std::int32_t wall = 0;
@@ -125,6 +125,7 @@ private:
   void keepLoad(const GrainStore& grains, const Sweep& sweep);
 
   const LawStack& laws_;
+  int slots_ = 1; ///< of history a candidate: as many as any of the walls can be touched in
   std::vector<Candidate> candidates_;
   std::vector<Slack> slack_;          ///< per candidate
   std::vector<std::int32_t> offsets_; ///< candidates of each grain

@@ -56,6 +56,8 @@ public:
 
   const MeshTopology& topology() const { return topology_; }
 
+  int mostTouches() const override { return maxTouches; }
+
   void touches(const Vec3& x, double reach, Touches& out) const override {
     if (bounds_.squaredExteriorDistance(x) >= reach * reach) return;
     thread_local std::vector<TreeEntry> found;
@@ -71,7 +73,7 @@ public:
       return std::tie(a.distance, a.feature, a.triangle) < std::tie(b.distance, b.feature, b.triangle);
     });
     const int before = out.count;
-    for (std::size_t i = 0; i < places.size() && out.count < maxTouches; ++i) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
       const Place& p = places[i];
       if (covered(p, places, i)) continue;
       const Vec3 normal = (x - p.point) / p.distance;

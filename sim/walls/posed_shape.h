@@ -12,6 +12,7 @@ public:
   PosedShape(std::shared_ptr<const WallShape> atRest, const WallPose& pose)
       : atRest_(std::move(atRest)), pose_(pose) {}
 
+  int mostTouches() const override { return atRest_->mostTouches(); }
   void touches(const Vec3& centre, double reach, Touches& out) const override;
   double signedDistance(const Vec3& x) const override { return atRest_->signedDistance(pose_.toBody(x)); }
   Eigen::AlignedBox3d bounds() const override;

@@ -23,17 +23,24 @@ struct WallTouch {
 
 class WallShape {
 public:
-  /// No sphere touches one wall in more places than this at a time.
-  static constexpr int maxTouches = 6;
+  /// No sphere can touch one wall in more places than this at a time: a ball that plugs a funnel of many
+  /// facets, which count as one where they are nearly parallel.
+  static constexpr int maxTouches = 32;
   struct Touches {
-    int count = 0;
+    int count = 0, lost = 0; ///< lost: those beyond maxTouches; forces would be wrong
     std::array<WallTouch, maxTouches> at;
     void add(const WallTouch& t) {
-      if (count < maxTouches) at[count++] = t;
+      if (count < maxTouches)
+        at[count++] = t;
+      else
+        ++lost;
     }
   };
 
   virtual ~WallShape() = default;
+
+  /// Of this kind of wall; what is kept of grains near it grows with it.
+  virtual int mostTouches() const { return 6; }
 
   /// Every face, edge or corner nearer than `reach` to `centre`, in ascending order of feature.
   /// An edge shared by two faces is reported once, and not at all where a face covers it.

@@ -11,6 +11,12 @@ namespace sandglass {
 
 void DemSolver::checkOverlap(const DeepestOverlap& deepest) const {
   if (deepest.share <= scene_.accuracy.maximumOverlap) return;
+  if (deepest.share == DeepestOverlap::crowded)
+    throw RunError(fmt::format("at {:.6g} s (step {}) grain {} touches the wall '{}' in more than {} places "
+                               "at once, more than can be "
+                               "kept; make the mesh coarser or raise its smooth_angle",
+                               time(), step_, deepest.idA, walls_[deepest.wall].name,
+                               walls_[deepest.wall].shape->mostTouches()));
   const std::string partner = deepest.idB >= 0 ? fmt::format("grain {}", deepest.idB)
                                                : fmt::format("wall '{}'", walls_[deepest.wall].name);
   throw RunError(fmt::format(

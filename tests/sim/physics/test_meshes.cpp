@@ -326,3 +326,44 @@ TEST_CASE("no garbage crashes the reader of STL: a mesh or a sentence comes back
   CHECK(read > 1000);
   CHECK(refused > 10000);
 }
+
+TEST_CASE(
+    "a ball that plugs a funnel of facets is held from all sides, and refused where there are too many") {
+  const auto funnel = [](int facets, double smoothAngle) {
+    std::string points, corners;
+    for (const double z : {0.0, 10.0})
+      for (int k = 0; k < facets; ++k) {
+        const double angle = 2 * std::numbers::pi * k / facets, r = 1 + 0.9 * z;
+        points += fmt::format("[\"{:.15g} mm\", \"{:.15g} mm\", \"{} mm\"],", r * std::cos(angle),
+                              r * std::sin(angle), z);
+      }
+    for (int k = 0; k < facets; ++k) {
+      const int next = (k + 1) % facets;
+      corners += fmt::format("{},{},{},{},{},{},", k, next, facets + next, k, facets + next, facets + k);
+    }
+    SceneText t;
+    t.gravity = R"(["0", "0", "-9.81 m/s^2"])";
+    t.normal = R"({ law = "linear", stiffness = "1000 N/m", restitution = 0.5 })";
+    t.walls = fmt::format("[[wall]]\nname = \"funnel\"\nkind = \"mesh\"\nmaterial = \"wall\"\npoints = [{}]\n"
+                          "corners = [{}]\nsmooth_angle = \"{} deg\"\n",
+                          points, corners, smoothAngle);
+    std::string text = t.text();
+    text.replace(text.find("[\"2 mm\", \"2 mm\", \"2 mm\"]"), 24, "[\"0\", \"0\", \"50 mm\"]");
+    return parseScene(text, "funnel");
+  };
+  for (const int facets : {6, 8, 13, 24, 48}) { // of 48, every second is told apart from its neighbours
+    CAPTURE(facets);
+    DemSolver solver(funnel(facets, 10), {1});
+    solver.add({grain(0, {0, 0, 5e-3}, Vec3::Zero(), Vec3::Zero(), 3e-3)});
+    solver.advance(static_cast<std::int64_t>(0.3 / solver.stepSize()));
+    const GrainSeed ball = solver.present()[0];
+    const double weight = 4.0 / 3.0 * std::numbers::pi * 27e-9 * 2500 * 9.81;
+    CHECK(ball.velocity.norm() < 1e-6);
+    CHECK(std::hypot(ball.position.x(), ball.position.y()) < 1e-6);
+    CHECK(solver.walls()[0].force.z() == Approx(-weight).epsilon(1e-3));
+  }
+  DemSolver crowded(funnel(48, 0), {1});
+  crowded.add({grain(0, {0, 0, 5e-3}, Vec3::Zero(), Vec3::Zero(), 3e-3)});
+  CHECK_THROWS_WITH(crowded.advance(100000),
+                    Catch::Contains("grain 0 touches the wall 'funnel' in more than 32 places"));
+}
