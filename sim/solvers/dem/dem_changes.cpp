@@ -8,7 +8,25 @@
 
 namespace sandglass {
 
+namespace {
+
+/// A wall that goes to and fro within few steps would be seen at a few places of its way, or at one alone.
+void refuseUnresolved(const WallSpec& wall, double pace, double dt) {
+  constexpr double fewest = 10; // steps a period
+  if (wall.motion.kind != "oscillate") return;
+  const double frequency = pace * wall.motion.parameters.number("frequency");
+  if (frequency * dt * fewest > 1.0)
+    throw InputError(
+        fmt::format("the wall '{}' oscillates {:.3g} times a second, with {:.3g} steps of {:.3g} s a "
+                    "period, but {:g} are needed; lower its frequency or time_step",
+                    wall.name, frequency, 1.0 / (frequency * dt), dt, fewest));
+}
+
+} // namespace
+
 void DemSolver::refuseFastWalls(double fastest) const {
+  for (const WallSpec& wall : scene_.walls)
+    refuseUnresolved(wall, 1.0, dt_);
   if (fastest * dt_ > scene_.accuracy.maximumTravel * smallestRadius_)
     throw InputError(fmt::format(
         "a wall moves at up to {:.3g} m/s, {:.3g} m in a step of {:.3g} s, more than {:g} times "
@@ -31,6 +49,8 @@ void DemSolver::setWallPace(const std::string& name, double pace) {
   for (SolverWall& w : walls_)
     if (w.name == name && w.motion) {
       refuseFastWalls(pace * w.motion->topSpeed(wallRadius_));
+      for (const WallSpec& wall : scene_.walls)
+        if (wall.name == name) refuseUnresolved(wall, pace, dt_);
       changeAhead(); // grains near it are listed for its new speed
       w.motion->setPace(w.marks, pace, time());
       placeWalls(walls_, time(), 0.0);

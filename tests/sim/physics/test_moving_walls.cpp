@@ -314,4 +314,12 @@ TEST_CASE("motions that cannot be are refused with a sentence") {
   CHECK_THROWS_WITH(t.scene(), Catch::Contains("discharge"));
   t.walls = plane(R"({ kind = "translate", velocity = ["1 km/s", "0", "0"] })");
   CHECK_THROWS_WITH(DemSolver(t.scene()), Catch::Contains("could jump over a grain"));
+  t.walls = plane(R"({ kind = "oscillate", amplitude = ["1 nm", "0", "0"], frequency = "1e6 Hz" })");
+  CHECK_THROWS_WITH(DemSolver(t.scene()),
+                    Catch::Contains("the wall 'plate' oscillates 1e+06 times a second") &&
+                        Catch::Contains("but 10 are needed"));
+  t.walls = plane(R"({ kind = "oscillate", amplitude = ["1 nm", "0", "0"], frequency = "1e3 Hz" })");
+  DemSolver paced(t.scene());
+  CHECK_NOTHROW(paced.setWallPace("plate", 2));
+  CHECK_THROWS_WITH(paced.setWallPace("plate", 100), Catch::Contains("but 10 are needed"));
 }
