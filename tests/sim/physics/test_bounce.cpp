@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -18,14 +19,13 @@ struct Bounce {
 };
 
 /// Two grains head on at speed v each, or one against a plane.
-Bounce bounce(const SceneText& text, double v, bool wall) {
+Bounce bounce(const SceneText& text, double v, bool wall, double gap = 1e-6) {
   SceneText t = text;
   if (wall)
     t.walls = "[[wall]]\nname = \"floor\"\nkind = \"plane\"\nmaterial = \"wall\"\npoint = [\"0 m\", \"0 m\", "
               "\"0 m\"]\nnormal = "
               "[1, 0, 0]\n";
   DemSolver solver(t.scene(), {1});
-  const double gap = 1e-6;
   if (wall)
     solver.add({grain(0, {1e-3 + gap, 0, 0}, {-v, 0, 0})});
   else
@@ -77,6 +77,42 @@ TEST_CASE("restitution converges with the step") {
     before = error;
   }
   CHECK(before < 1e-3);
+}
+
+TEST_CASE("what steps per contact cost: the documented error of one bounce, wherever between steps the touch "
+          "falls") {
+  // docs/performance.md, the row of accuracy.steps_per_contact.
+  const std::string latching = R"({ law = "walton_braun", stiffness = "1000 N/m", restitution = 0.9 })",
+                    hertz = R"({ law = "hertz", restitution = 0.9 })";
+  const auto worst = [&](const std::string& normal, double e, double steps) {
+    SceneText t;
+    t.elasticity = "youngs_modulus = \"50 MPa\"\npoisson_ratio = 0.25";
+    t.normal = normal;
+    // Without a filling in motion the step of a Hertzian scene is that of an impact at 1 mm/s.
+    t.stepsPerContact = steps * (normal == hertz ? std::pow(0.2 / 1e-3, 0.2) : 1.0);
+    const double way = 0.1 * DemSolver(t.scene()).stepSize();
+    double most = 0.0;
+    for (int k = 0; k < 16; ++k)
+      most =
+          std::max(most, std::abs(bounce(t, 0.1, false, (3 + (k + 0.5) / 16) * way).restitution / e - 1.0));
+    return most;
+  };
+  // Forces that begin at zero.
+  for (const auto& [normal, e] : {std::pair{linear(1.0), 1.0}, {latching, 0.9}, {hertz, 0.9}}) {
+    CAPTURE(normal);
+    const double coarse = worst(normal, e, 25), fine = worst(normal, e, 100);
+    CHECK(coarse < 0.003);
+    CHECK(fine < 0.5e-3);
+    CHECK(coarse > 4 * fine);
+  }
+  // A linear dashpot begins with a blow: first order.
+  for (const auto& [e, share] : {std::pair{0.9, 0.01}, {0.5, 0.04}}) {
+    CAPTURE(e);
+    const double coarse = worst(linear(e), e, 25), fine = worst(linear(e), e, 100);
+    CHECK(coarse < share);
+    CHECK(fine < 0.4 * coarse);
+    CHECK(fine > 0.1 * coarse);
+  }
 }
 
 TEST_CASE("with the attraction cut off, the matched dashpot still gives the restitution asked for") {
