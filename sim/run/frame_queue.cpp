@@ -44,6 +44,7 @@ void FrameQueue::work() {
     if (!idle) {
       frame = std::move(waiting_.front());
       waiting_.pop_front();
+      changed_.notify_all(); // there is room now, not only when this one is written
     }
     busy_ = true;
     lock.unlock();
