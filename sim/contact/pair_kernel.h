@@ -12,12 +12,13 @@
 namespace sandglass {
 
 /// Where in the ring an output stands and whether the grain is the pair's first: times the stride, and
-/// without its last three bits, an offset in bytes; those bits are an index into ringSigns.
+/// without its last four bits, twice an offset in bytes; those bits are an index into ringSigns.
 constexpr std::int32_t ringEntry(std::int64_t place, bool first) {
-  return static_cast<std::int32_t>(place << 3 | (first ? 4 : 0));
+  return static_cast<std::int32_t>(place << 4 | (first ? 8 : 0));
 }
-/// Eight factors from the index on: forces change sign for the second grain of a pair, torques do not.
-alignas(64) inline constexpr double ringSigns[12] = {-1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1};
+/// Eight factors from the index on, in one line of the cache: forces change sign for the second grain of a
+/// pair, torques do not.
+alignas(64) inline constexpr double ringSigns[16] = {-1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 
 /// What the loop sees of grains and pairs. Records are `quads` times four doubles: x y z radius, velocity and
 /// 1/mass, radius times spin and 1/radius (GrainStore). Pairs, histories, outputs, slots: PairList.

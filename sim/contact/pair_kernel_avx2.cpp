@@ -73,8 +73,8 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
     __m256d force = _mm256_setzero_pd(), torque = force, couple = force;
     for (int k = 0; k < 8; ++k) {
       const std::int64_t entry = slot[k];
-      const double* out = ring + (entry >> 3) * stride;
-      const __m256d sign = _mm256_load_pd(ringSigns + (entry & 7));
+      const double* out = ring + (entry >> 4) * stride;
+      const __m256d sign = _mm256_load_pd(ringSigns + (entry & 15));
       force = _mm256_fmadd_pd(sign, _mm256_load_pd(out), force);
       if (stride < 8) continue;
       torque = _mm256_add_pd(torque, _mm256_load_pd(out + 4));

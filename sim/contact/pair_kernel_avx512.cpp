@@ -113,12 +113,12 @@ inline void sums(const ParticleView& v, std::int64_t first, int count, const dou
     __m256d force = _mm256_setzero_pd(), couple = force;
     for (int k = 0; k < 8; ++k) {
       const auto entry = static_cast<std::uint32_t>(slot[k]);
-      const auto* out = reinterpret_cast<const double*>(outputs + std::uint64_t{entry & ~7u} * (4 * quads));
-      const double* sign = ringSigns + (entry & 7u);
+      const auto* out = reinterpret_cast<const double*>(outputs + std::uint64_t{entry & ~15u} * (2 * quads));
+      const double* sign = ringSigns + (entry & 15u);
       if constexpr (quads == 1)
         force = _mm256_fmadd_pd(_mm256_load_pd(sign), _mm256_load_pd(out), force);
       else
-        both = _mm512_fmadd_pd(_mm512_loadu_pd(sign), _mm512_loadu_pd(out), both);
+        both = _mm512_fmadd_pd(_mm512_load_pd(sign), _mm512_loadu_pd(out), both);
       if constexpr (quads == 3)
         couple = _mm256_fmadd_pd(_mm256_load_pd(sign), _mm256_load_pd(out + 8), couple);
     }

@@ -69,8 +69,8 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
       to[k] = 0.0;
     for (int slot = 0; slot < 8; ++slot) {
       const std::int32_t entry = v.places[(first + i) * 8 + slot];
-      const double* out = ring + std::int64_t{entry >> 3} * stride;
-      const double sign = ringSigns[entry & 7];
+      const double* out = ring + std::int64_t{entry >> 4} * stride;
+      const double sign = ringSigns[entry & 15];
       for (int k = 0; k < 3; ++k)
         to[k] += sign * out[k];
       if (stride > 4)

@@ -127,9 +127,9 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
     __m256d force = _mm256_setzero_pd(), torque = force;
     for (int k = 0; k < 8; ++k) {
       const std::int64_t entry = slot[k];
-      const auto* out = reinterpret_cast<const float*>(ring + (entry >> 3) * v.outputStride);
+      const auto* out = reinterpret_cast<const float*>(ring + (entry >> 4) * v.outputStride);
       force =
-          _mm256_fmadd_pd(_mm256_cvtps_pd(_mm_load_ps(out)), _mm256_load_pd(ringSigns + (entry & 7)), force);
+          _mm256_fmadd_pd(_mm256_cvtps_pd(_mm_load_ps(out)), _mm256_load_pd(ringSigns + (entry & 15)), force);
       if (v.outputQuads > 1) torque = _mm256_add_pd(torque, _mm256_cvtps_pd(_mm_load_ps(out + 4)));
     }
     _mm256_store_pd(s.at[i], force);

@@ -176,9 +176,9 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
     for (int k = 0; k < 8; ++k) {
       const auto entry = static_cast<std::uint32_t>(slot[k]);
       const auto* out =
-          reinterpret_cast<const float*>(outputs + std::uint64_t{entry & ~7u} * (turning ? 4 : 2));
+          reinterpret_cast<const float*>(outputs + std::uint64_t{entry & ~15u} * (turning ? 2 : 1));
       const __m256 numbers = turning ? _mm256_load_ps(out) : _mm256_zextps128_ps256(_mm_load_ps(out));
-      total = _mm512_fmadd_pd(_mm512_loadu_pd(ringSigns + (entry & 7u)), _mm512_cvtps_pd(numbers), total);
+      total = _mm512_fmadd_pd(_mm512_load_pd(ringSigns + (entry & 15u)), _mm512_cvtps_pd(numbers), total);
     }
     _mm512_storeu_pd(s.at[i], total);
   }

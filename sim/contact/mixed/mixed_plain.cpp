@@ -63,8 +63,8 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
     std::fill_n(to, 12, 0.0);
     for (int slot = 0; slot < 8; ++slot) {
       const std::int32_t entry = v.places[(first + i) * 8 + slot];
-      const auto* out = reinterpret_cast<const float*>(ring + std::int64_t{entry >> 3} * v.outputStride);
-      const double sign = ringSigns[entry & 7];
+      const auto* out = reinterpret_cast<const float*>(ring + std::int64_t{entry >> 4} * v.outputStride);
+      const double sign = ringSigns[entry & 15];
       for (int k = 0; k < 3; ++k)
         to[k] += sign * static_cast<double>(out[k]);
       for (int k = 4; k < 7 && v.outputQuads > 1; ++k)

@@ -97,13 +97,13 @@ void sweep(const PairList& list, std::map<std::int64_t, std::vector<std::int32_t
       for (std::int64_t i = first; i < last; ++i)
         for (int k = 0; k < PairList::slotCount; ++k) {
           const std::int32_t entry = list.places()[i * PairList::slotCount + k];
-          const std::int64_t place = entry >> 3;
+          const std::int64_t place = entry >> 4;
           if (place == window) continue;
           right = right && place < list.ringSize();
           const std::int64_t lent = list.groupLent(g).begin + place - window - 1;
           const std::int64_t p = place < window ? ring[place] : list.lent()[lent].entry;
           right = right && (place < window || (lent < list.groupLent(g).end && p < list.crossing().end));
-          found[i].push_back(static_cast<std::int32_t>(p << 1 | (entry & 4 ? 0 : 1)));
+          found[i].push_back(static_cast<std::int32_t>(p << 1 | (entry & 8 ? 0 : 1)));
         }
       for (std::int64_t e = list.groupExtras(g).begin; e < list.groupExtras(g).end; ++e) {
         const auto [grain, entry] = list.extras()[e];
