@@ -64,9 +64,6 @@ public:
   const Kernel& kernel() const { return kernel_; }
   /// Under mixed precision: grains have moved otherwise than by the kernel.
   void refresh();
-  void refresh(std::int64_t grain) { ///< this one alone has
-    if (view_.mixed) kernel_.narrow(view_, grain, 1);
-  }
   std::size_t bytes() const { return mixed_.bytes() + placeOfPair_.size(); }
 
   /// Evaluates the pairs of a range that starts and ends at multiples of PairList::lane: outputs, which begin

@@ -48,7 +48,7 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
       parallel_(options.threads),
       list_(scene.domain, laws_.historySize(), laws_.outputStride(), laws_.hasEvents(), laws_.mixed()),
       pairForces_(laws_), wallContacts_(laws_), across_(laws_, scene.sector()),
-      loop_(grains_, list_, pairForces_, wallContacts_, walls_, across_, fields_, parallel_), frozen_(scene),
+      frozen_(scene), loop_(grains_, list_, pairForces_, wallContacts_, walls_, across_, fields_, frozen_, parallel_),
       gravity_(scene.gravity), lives_(scene) {
   if (across_.used() && laws_.hasEvents())
     throw InputError("a wedge cannot be simulated with laws that move quantities from grain to grain across "
@@ -272,6 +272,7 @@ void DemSolver::stepOnce() {
   DeepestOverlap deepest;
   across_.step(grains_, dt_, parallel_, deepest);
   if (fields_.any()) fields_.look(grains_, list_, time(), parallel_);
+  if (frozen_.any()) frozen_.advance(dt_);
   const auto report =
       loop_.step(dt_, gravity_, scene_.accuracy.maximumTravel * smallestRadius_ / dt_, events, deepest);
   wallContacts_.tally(walls_, step_ == 0 ? 0.0 : dt_); // the work since the step before
@@ -280,12 +281,10 @@ void DemSolver::stepOnce() {
   if (!events.empty()) applyEvents(events);
   if (drag_ > 0) {
     damp();
+    frozen_.hold(grains_);
     pairForces_.refresh();
   }
-  if (frozen_.any()) {
-    frozen_.advance(grains_, loop_, dt_, step_ == 0 ? 0.0 : dt_);
-    frozen_.each([this](std::int64_t grain) { pairForces_.refresh(grain); });
-  }
+  if (frozen_.any()) frozen_.tally(loop_, step_ == 0 ? 0.0 : dt_);
   ++step_;
   placeWalls(walls_, time(), dt_);
   atFullStep_.valid = false;

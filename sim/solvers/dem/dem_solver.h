@@ -117,8 +117,8 @@ private:
   PairForces pairForces_;
   mutable WallContacts wallContacts_;
   mutable SectorContacts across_; ///< the faces of a wedge
-  mutable ParticleLoop loop_;
   FrozenGrains frozen_;
+  mutable ParticleLoop loop_;
   mutable FullStep atFullStep_;
   mutable std::vector<SolverWall> walls_;
   double wallRadius_ = 0; ///< [m] no grain is further from a moving wall's reference

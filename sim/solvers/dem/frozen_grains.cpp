@@ -1,6 +1,7 @@
 #include "sim/solvers/dem/frozen_grains.h"
 
 #include "sim/base/error.h"
+#include "sim/contact/pair_list.h"
 #include "sim/solvers/dem/particle_loop.h"
 
 namespace sandglass {
@@ -14,10 +15,14 @@ FrozenGrains::FrozenGrains(const Scene& scene) {
 
 void FrozenGrains::capture(const GrainStore& grains) {
   held_.clear();
-  for (std::size_t i = 0; any_ && i < grains.size(); ++i)
+  groupFirst_.clear();
+  for (std::size_t i = 0; any_ && i < grains.size(); ++i) {
+    if (i % PairList::group == 0) groupFirst_.push_back(held_.size());
     if (frozen_[grains.species[i]])
       held_.push_back({static_cast<std::int32_t>(i), grains.place[i], grains.motion[i],
                        grains.turning ? grains.roll[i] : Quad{}});
+  }
+  groupFirst_.push_back(held_.size());
 }
 
 std::vector<std::int32_t> FrozenGrains::moving() const {
@@ -27,15 +32,24 @@ std::vector<std::int32_t> FrozenGrains::moving() const {
   return grains;
 }
 
-void FrozenGrains::hold(GrainStore& grains) const {
-  for (const Held& h : held_) {
+void FrozenGrains::hold(GrainStore& grains, std::size_t first, std::size_t last) const {
+  for (std::size_t k = first; k < last; ++k) {
+    const Held& h = held_[k];
     grains.place[h.grain] = h.place;
     grains.motion[h.grain] = h.motion;
     if (grains.turning) grains.roll[h.grain] = h.roll;
   }
 }
 
-void FrozenGrains::advance(GrainStore& grains, const ParticleLoop& loop, double dt, double worked) {
+void FrozenGrains::advance(double dt) {
+  for (Held& h : held_) {
+    h.place.x += dt * h.motion.x;
+    h.place.y += dt * h.motion.y;
+    h.place.z += dt * h.motion.z;
+  }
+}
+
+void FrozenGrains::tally(const ParticleLoop& loop, double worked) {
   double power = 0.0;
   std::size_t k = 0;
   Vec3 force, torque;
@@ -46,12 +60,6 @@ void FrozenGrains::advance(GrainStore& grains, const ParticleLoop& loop, double 
   }
   work_ += 0.5 * worked * (power_ + power);
   power_ = power;
-  for (Held& h : held_) {
-    h.place.x += dt * h.motion.x;
-    h.place.y += dt * h.motion.y;
-    h.place.z += dt * h.motion.z;
-  }
-  hold(grains);
 }
 
 double FrozenGrains::workWith(const std::vector<Quad>& force, const std::vector<Quad>& torque,

@@ -30,19 +30,19 @@ public:
 
   /// After grains came, left or changed places: takes the motion that they have now as the one to keep.
   void capture(const GrainStore& grains);
-  /// Calls visit(storage index) for each.
-  template <class Visit> void each(Visit&& visit) const {
-    for (const Held& h : held_)
-      visit(h.grain);
-  }
-  /// Storage indices of those that move or turn, whose forces advance() asks the loop for.
+  /// Storage indices of those that move or turn, whose forces tally() asks the loop for.
   std::vector<std::int32_t> moving() const;
-  /// Gives them back what capture() found, at the place where advance() has brought them.
-  void hold(GrainStore& grains) const;
-  /// After a step of the particle loop: they go on as they are. `worked`: the time since the step before [s],
-  /// over which the work of their contacts is added up; leap-frog integration makes it dt times the mean of
-  /// the powers at its ends, as for walls.
-  void advance(GrainStore& grains, const ParticleLoop& loop, double dt, double worked);
+  /// Gives them back what capture() found, at the places where advance() has brought them.
+  void hold(GrainStore& grains) const { hold(grains, 0, held_.size()); }
+  /// Those of one group of grains, while the particle loop has them at hand.
+  void holdGroup(GrainStore& grains, std::int64_t group) const {
+    hold(grains, groupFirst_[group], groupFirst_[group + 1]);
+  }
+  /// Before a step of the particle loop: where it will leave them.
+  void advance(double dt);
+  /// After it: adds up the work of their contacts. `worked`: the time since the step before [s]; leap-frog
+  /// integration makes it dt times the mean of the powers at its ends, as for walls.
+  void tally(const ParticleLoop& loop, double worked);
 
   /// Work that they have done on other grains [J] up to a full step with these contact forces and torques.
   double workWith(const std::vector<Quad>& force, const std::vector<Quad>& torque, double worked) const;
@@ -57,9 +57,12 @@ private:
     Quad place, motion, roll;
     bool moves() const { return motion.vec() != Vec3::Zero() || roll.vec() != Vec3::Zero(); }
   };
+  void hold(GrainStore& grains, std::size_t first, std::size_t last) const;
+
   std::vector<bool> frozen_; ///< by species
   bool any_ = false;
-  std::vector<Held> held_; ///< in storage order
+  std::vector<Held> held_;               ///< in storage order
+  std::vector<std::size_t> groupFirst_; ///< of each group of PairList::group grains, and the end
   double work_ = 0, power_ = 0;
 };
 
