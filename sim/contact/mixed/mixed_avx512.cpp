@@ -167,21 +167,29 @@ template <class A> struct Width512 {
   }
 };
 
-void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
+template <bool turning>
+inline void sums(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
   const std::int32_t* slot = v.places + first * 8;
   const auto* outputs = reinterpret_cast<const char*>(ring);
-  const bool turning = v.outputQuads > 1;
   for (int i = 0; i < count; ++i, slot += 8) {
     __m512d total = _mm512_setzero_pd(); // force and torque
     for (int k = 0; k < 8; ++k) {
       const auto entry = static_cast<std::uint32_t>(slot[k]);
       const auto* out =
           reinterpret_cast<const float*>(outputs + std::uint64_t{entry & ~15u} * (turning ? 2 : 1));
-      const __m256 numbers = turning ? _mm256_load_ps(out) : _mm256_zextps128_ps256(_mm_load_ps(out));
-      total = _mm512_fmadd_pd(_mm512_load_pd(ringSigns + (entry & 15u)), _mm512_cvtps_pd(numbers), total);
+      __m512d numbers;
+      if constexpr (turning)
+        numbers = _mm512_cvtps_pd(_mm256_load_ps(out)); // by the load itself
+      else
+        numbers = _mm512_zextpd256_pd512(_mm256_cvtps_pd(_mm_load_ps(out)));
+      total = _mm512_fmadd_pd(_mm512_load_pd(ringSigns + (entry & 15u)), numbers, total);
     }
     _mm512_storeu_pd(s.at[i], total);
   }
+}
+
+void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
+  v.outputQuads > 1 ? sums<true>(v, first, count, ring, s) : sums<false>(v, first, count, ring, s);
 }
 
 } // namespace

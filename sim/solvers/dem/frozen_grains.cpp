@@ -15,20 +15,22 @@ FrozenGrains::FrozenGrains(const Scene& scene) {
 
 void FrozenGrains::capture(const GrainStore& grains) {
   held_.clear();
+  moving_.clear();
   groupFirst_.clear();
   for (std::size_t i = 0; any_ && i < grains.size(); ++i) {
     if (i % PairList::group == 0) groupFirst_.push_back(held_.size());
-    if (frozen_[grains.species[i]])
-      held_.push_back({static_cast<std::int32_t>(i), grains.place[i], grains.motion[i],
-                       grains.turning ? grains.roll[i] : Quad{}});
+    if (!frozen_[grains.species[i]]) continue;
+    held_.push_back({static_cast<std::int32_t>(i), grains.place[i], grains.motion[i],
+                     grains.turning ? grains.roll[i] : Quad{}});
+    if (held_.back().moves()) moving_.push_back(held_.size() - 1);
   }
   groupFirst_.push_back(held_.size());
 }
 
 std::vector<std::int32_t> FrozenGrains::moving() const {
   std::vector<std::int32_t> grains;
-  for (const Held& h : held_)
-    if (h.moves()) grains.push_back(h.grain);
+  for (const std::size_t k : moving_)
+    grains.push_back(held_[k].grain);
   return grains;
 }
 
@@ -42,7 +44,8 @@ void FrozenGrains::hold(GrainStore& grains, std::size_t first, std::size_t last)
 }
 
 void FrozenGrains::advance(double dt) {
-  for (Held& h : held_) {
+  for (const std::size_t k : moving_) {
+    Held& h = held_[k];
     h.place.x += dt * h.motion.x;
     h.place.y += dt * h.motion.y;
     h.place.z += dt * h.motion.z;
@@ -51,11 +54,10 @@ void FrozenGrains::advance(double dt) {
 
 void FrozenGrains::tally(const ParticleLoop& loop, double worked) {
   double power = 0.0;
-  std::size_t k = 0;
   Vec3 force, torque;
-  for (const Held& h : held_) {
-    if (!h.moves()) continue;
-    loop.watchedForce(k++, force, torque);
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    const Held& h = held_[moving_[k]];
+    loop.watchedForce(k, force, torque);
     power -= force.dot(h.motion.vec()) + torque.dot(h.roll.w * h.roll.vec());
   }
   work_ += 0.5 * worked * (power_ + power);
