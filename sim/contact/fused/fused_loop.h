@@ -191,9 +191,10 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
   };
   const auto begin = [&](int c, Ahead& a) SANDGLASS_LAMBDA {
     a.apart = W::template places<turning>(v, first + c, a.reach);
-    a.motion = W::template motions<turning, rolls>(v, first + c);
     const V squared = dot<A>(a.apart, a.apart);
     a.near = a.reach.mayTouch(squared);
+    if (!a.near) return; // foreseen: pairs that are near when they are listed stand together
+    a.motion = W::template motions<turning, rolls>(v, first + c);
     a.inverse = A::overRoot(one, squared, a.distance);
   };
   int active[ContactBlock::capacity / W::lanes], actives = 0;

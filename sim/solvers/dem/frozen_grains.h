@@ -61,9 +61,9 @@ private:
 
   std::vector<bool> frozen_; ///< by species
   bool any_ = false;
-  std::vector<Held> held_;               ///< in storage order
-  std::vector<std::size_t> moving_;      ///< which of them move or turn
-  std::vector<std::size_t> groupFirst_;  ///< of each group of PairList::group grains, and the end
+  std::vector<Held> held_;              ///< in storage order
+  std::vector<std::size_t> moving_;     ///< which of them move or turn
+  std::vector<std::size_t> groupFirst_; ///< of each group of PairList::group grains, and the end
   double work_ = 0, power_ = 0;
 };
 

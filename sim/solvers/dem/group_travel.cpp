@@ -89,8 +89,7 @@ bool GroupTravel::measure(const GrainStore& grains, double range, const std::arr
     moved_[g] = std::sqrt(farthest);
     widest[g] = reach;
   });
-  const double sheared =
-      gradient.norm() * (*std::max_element(widest.begin(), widest.end()) + 0.5 * range);
+  const double sheared = gradient.norm() * (*std::max_element(widest.begin(), widest.end()) + 0.5 * range);
   for (double& moved : moved_)
     moved += sheared;
   for (std::int64_t g = 0; g < groups; ++g)
