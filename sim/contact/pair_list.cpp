@@ -1,6 +1,7 @@
 #include "sim/contact/pair_list.h"
 
 #include "sim/base/error.h"
+#include "sim/contact/contact_block.h"
 #include "sim/contact/pair_carry.h"
 #include "sim/contact/pair_order.h"
 
@@ -182,7 +183,8 @@ void PairList::layOut() {
   makeRoom(now_.pairs, at, 1);
   if (periodic_) makeRoom(now_.shiftOf, at, 1); // and one more each to retire
   makeRoom(now_.history, at * historySize_ / (single_ ? 2 : 1));
-  quiet_.assign(static_cast<std::size_t>(historySize_ > 0 ? at : 0), 0);
+  // Loops look a block ahead.
+  quiet_.assign(static_cast<std::size_t>(historySize_ > 0 ? at + ContactBlock::capacity : 0), 0);
   if (keepsLive_) makeRoom(now_.live, at, 1);
   groupEnd_.resize(static_cast<std::size_t>(now_.groups()));
   groupReach_.resize(groupEnd_.size());

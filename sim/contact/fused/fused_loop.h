@@ -137,17 +137,19 @@ void rest(const ParticleView& v, std::int64_t p, bool keepHistory, double* out) 
   W::template clear<outputQuads>(out);
 }
 
-/// Asks for the histories of a block further on and for the records that about as many pairs will need for
-/// the first time, three a grain; returns where the next begin. A processor foresees both by itself, but anew
-/// from each page on. A few lines at a time: asked for all at once, they hold up whatever else is read.
+/// Asks for histories of a block further on, unless they are zeros of pairs at rest, and for the records that
+/// about as many pairs will need for the first time, three a grain; returns where the next begin. A processor
+/// foresees both by itself, but anew from each page on. A few lines at a time: asked for all at once, they
+/// hold up whatever else is read.
 template <class W, bool turning, int historySize>
 SANDGLASS_LOOP const char* fetch(const ParticleView& v, std::int64_t p, const char* ahead) {
   constexpr int line = 64, record = W::quad * (turning ? 3 : 2) * static_cast<int>(sizeof(double));
   constexpr int lines = (W::lanes * record + 3 * line - 1) / (3 * line);
-  for (int k = 0; turning && k < historySize; ++k)
-    __builtin_prefetch(historyOf<historySize, typename W::Real>(v, p + ContactBlock::capacity) +
-                           ParticleView::lane * k,
-                       1, 2);
+  if (turning && !v.quiet[(p + ContactBlock::capacity) / W::lanes])
+    for (int k = 0; k < historySize; ++k)
+      __builtin_prefetch(historyOf<historySize, typename W::Real>(v, p + ContactBlock::capacity) +
+                             ParticleView::lane * k,
+                         1, 2);
   for (int k = 0; k < lines; ++k)
     __builtin_prefetch(ahead + k * line, 1, 2);
   return ahead + lines * line;
@@ -209,10 +211,6 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       continue;
     }
     active[actives++] = c;
-    // Those of groups in touch alone are read, too irregular a stream for the processor to foresee.
-    if constexpr (turning)
-      for (int k = 0; k < historySize; ++k)
-        __builtin_prefetch(historyOf<historySize, Real>(v, first + c) + k * ParticleView::lane, 1);
     const Vector3<V> n = times(now.inverse, now.apart);
     const V overlap = now.reach.overlap(now.distance);
     deepest = A::larger(deepest, overlap);
