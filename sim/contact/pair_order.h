@@ -26,7 +26,7 @@ public:
                             const Quad* shifts, std::int64_t& inside, std::int64_t& crossing);
 
 private:
-  static constexpr int deepClasses = 16, gapClasses = 24, classes = deepClasses + gapClasses;
+  static constexpr int deepClasses = 28, gapClasses = 36, classes = deepClasses + gapClasses;
   std::vector<std::int64_t> places_;
   std::vector<std::uint8_t> class_; ///< of each pair; crossing ones: + classes
 };
