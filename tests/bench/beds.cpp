@@ -215,6 +215,15 @@ std::vector<GrainSeed> shaken(std::vector<GrainSeed> beads) {
   return beads;
 }
 
+std::vector<GrainSeed> nudged(std::vector<GrainSeed> beads) {
+  constexpr double speed = 1e-3;
+  for (GrainSeed& s : beads) {
+    RandomStream random(4, RandomPurpose::test, s.id);
+    if (s.species == 0) s.velocity = speed * random.direction();
+  }
+  return beads;
+}
+
 std::vector<GrainSeed> gas(int across, double solidFraction, Beads& beads) {
   const double spacing = std::cbrt(std::numbers::pi / 6 / solidFraction), side = across * spacing;
   beads = {side, side, side, 0, 0, true, false, 0, 1e-4};

@@ -55,6 +55,9 @@ std::vector<GrainSeed> after(const Beads& beads, const std::vector<GrainSeed>& s
 /// The beads sheared (at about the rate that this flow has over a rough bottom) and shaken.
 std::vector<GrainSeed> shaken(std::vector<GrainSeed> beads);
 
+/// Those that are free with small velocities of their own, so that copies of a tile part.
+std::vector<GrainSeed> nudged(std::vector<GrainSeed> beads);
+
 /// Beads on a lattice at a solid fraction in a periodic cube, velocities of unit spread.
 std::vector<GrainSeed> gas(int across, double solidFraction, Beads& beads);
 

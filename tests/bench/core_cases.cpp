@@ -68,13 +68,16 @@ CoreCase chute(const std::string& name, bool quick, Chute kind) {
   const Tile& t = tile(10, 40, quick);
   Beads one = ground(t, 1, 1, 26), whole = ground(t, 4, 2, 26);
   one.rough = whole.rough = kind != Chute::shaken;
-  // One tile flows and is repeated: as good a bed to measure, at an eighth of the time.
-  std::vector<GrainSeed> grains = one.rough ? roughened(t.grains) : shaken(t.grains);
-  if (kind != Chute::rest)
-    grains = after(one, grains, quick ? shortTime : kind == Chute::flowing ? flowTime : shakenTime);
   // In flow so long that everybody's lists are made anew several times.
   const std::int64_t steps = quick ? look : kind == Chute::rest ? 4 * look : 10 * look;
-  return bed(name, whole, tiled(grains, t.side(), 4, 2), steps, true);
+  // Shaken, one tile flows and is repeated. Over the rough floor all flow, each tile in its own way: how often
+  // lists are made anew depends on the fastest few of all grains.
+  const bool repeated = kind == Chute::shaken;
+  std::vector<GrainSeed> grains = repeated ? shaken(t.grains) : roughened(t.grains);
+  if (repeated) grains = after(one, grains, quick ? shortTime : shakenTime);
+  grains = tiled(grains, t.side(), 4, 2);
+  if (kind == Chute::flowing) grains = after(whole, nudged(grains), quick ? shortTime : flowTime);
+  return bed(name, whole, grains, steps, true);
 }
 
 CoreCase dilute(bool quick) {
