@@ -3,9 +3,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
+#include <csignal>
 #include <fcntl.h>
 #include <spawn.h>
 #include <string>
+#include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -29,6 +33,25 @@ inline pid_t startProgram(std::vector<std::string> words) {
   posix_spawn_file_actions_destroy(&quiet);
   REQUIRE(fault == 0);
   return child;
+}
+
+/// Waits until enough() (asked at every `look`) says that `pieces` of work are done, and `part` of the time
+/// that one took has gone by once more, or the child has ended; kills it and returns its status.
+template <class Enough>
+int killAfter(pid_t child, std::size_t pieces, double part, std::chrono::microseconds look, Enough&& enough) {
+  using Clock = std::chrono::steady_clock;
+  const auto began = Clock::now();
+  int status = 0;
+  while (!enough()) {
+    if (waitpid(child, &status, WNOHANG) == child) return status;
+    std::this_thread::sleep_for(look);
+  }
+  std::chrono::duration<double> usual(0.02); // of a start; where it takes longer, the kill falls into it
+  if (pieces > 0) usual = (Clock::now() - began) / static_cast<double>(pieces);
+  std::this_thread::sleep_for(part * usual);
+  kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+  return status;
 }
 
 } // namespace sandglass::test

@@ -33,27 +33,18 @@ pid_t start(const fs::path& scene, const fs::path& folder, int threads) {
       {"run", scene.string(), "-o", folder.string(), "--resume", "--threads", std::to_string(threads)});
 }
 
-/// Waits until the run has written `checkpoints` more and `part` of the time that these took has gone by once
-/// more, or it has ended; kills it and returns its status.
-int killAfter(pid_t child, const fs::path& folder, int checkpoints, double part) {
-  using Clock = std::chrono::steady_clock;
+/// Kills it some time after it has written `checkpoints` more.
+int killRunAfter(pid_t child, const fs::path& folder, std::size_t checkpoints, double part) {
   const auto newest = [&] {
     const auto files = checkpointFiles(folder);
     return files.empty() ? fs::path() : files.back();
   };
-  const auto began = Clock::now();
-  int status = 0, seen = 0;
-  for (fs::path last = newest(); seen < checkpoints;) {
-    if (waitpid(child, &status, WNOHANG) == child) return status;
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  std::size_t seen = 0;
+  fs::path last = newest();
+  return killAfter(child, checkpoints, part, std::chrono::microseconds(200), [&] {
     if (const fs::path now = newest(); now != last) ++seen, last = now;
-  }
-  std::chrono::duration<double> usual(0.02); // of a start; where it takes longer, the kill falls into it
-  if (checkpoints > 0) usual = (Clock::now() - began) / static_cast<double>(checkpoints);
-  std::this_thread::sleep_for(part * usual);
-  kill(child, SIGKILL);
-  waitpid(child, &status, 0);
-  return status;
+    return seen >= checkpoints;
+  });
 }
 
 std::string contentOf(const fs::path& file) {
@@ -95,7 +86,8 @@ TEST_CASE("A run killed at any moment goes on with the same bits", "[app]") {
   for (std::uint64_t trial = 0; kills < 100; ++trial) {
     RandomStream random(2024, RandomPurpose::test, trial);
     const pid_t child = start(folder / "scene.toml", folder / "killed", 1 + static_cast<int>(trial % 3));
-    status = killAfter(child, folder / "killed", static_cast<int>(random.uniform(0, 6)), random.uniform());
+    status = killRunAfter(child, folder / "killed", static_cast<std::size_t>(random.uniform(0, 6)),
+                          random.uniform());
     INFO("trial " << trial);
     std::size_t frames = 0;
     if (fs::exists(folder / "killed" / "frames")) {

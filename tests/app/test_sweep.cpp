@@ -13,10 +13,8 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
-#include <csignal>
 #include <fstream>
 #include <sys/wait.h>
-#include <thread>
 
 using namespace sandglass;
 using namespace sandglass::analysis;
@@ -102,31 +100,17 @@ std::size_t doneIn(const fs::path& folder) {
   return done;
 }
 
-/// Waits until the sweep has done `runs` more and `part` of the time that these took has gone by once more,
-/// or it has ended; kills it and returns its status.
-int killAfter(pid_t child, const fs::path& folder, std::size_t runs, double part) {
-  using Clock = std::chrono::steady_clock;
+/// Kills it some time after it has done `runs` more.
+int killSweepAfter(pid_t child, const fs::path& folder, std::size_t runs, double part) {
   const bool there = fs::exists(folder / SweepTable::fileName);
   const std::size_t before = there ? doneIn(folder) : 0;
-  const auto enough = [&] {
+  return killAfter(child, runs, part, std::chrono::milliseconds(1), [&] {
     try {
       return runs == 0 || (fs::exists(folder / SweepTable::fileName) && doneIn(folder) >= before + runs);
     } catch (const std::exception&) {
       return false; // the table is being made, or locked
     }
-  };
-  const auto began = Clock::now();
-  int status = 0;
-  while (!enough()) {
-    if (waitpid(child, &status, WNOHANG) == child) return status;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  std::chrono::duration<double> usual(0.02); // of a start; where it takes longer, the kill falls into it
-  if (runs > 0) usual = (Clock::now() - began) / static_cast<double>(runs);
-  std::this_thread::sleep_for(part * usual);
-  kill(child, SIGKILL);
-  waitpid(child, &status, 0);
-  return status;
+  });
 }
 
 pid_t start(const fs::path& sweep, const fs::path& folder, int threads) {
@@ -228,8 +212,8 @@ levels = 1
   for (std::uint64_t trial = 0; kills < 10 && trial < 200; ++trial) {
     RandomStream random(6, RandomPurpose::test, trial);
     const pid_t child = start(folder / "SWEEP.toml", folder / "killed", 1 + static_cast<int>(trial % 3));
-    status =
-        killAfter(child, folder / "killed", static_cast<std::size_t>(random.uniform(0, 6)), random.uniform());
+    status = killSweepAfter(child, folder / "killed", static_cast<std::size_t>(random.uniform(0, 6)),
+                            random.uniform());
     if (!WIFSIGNALED(status)) {
       REQUIRE(status == 0);
       CHECK(SweepTable(folder / "killed").csv(true) == whole.csv(true));
