@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -39,5 +40,14 @@ private:
 };
 
 template <class T> using AlignedVector = std::vector<T, LineAllocator<T>>;
+
+/// Room for n values that will all be written: old values are not copied into larger memory.
+template <class Vector> void makeRoom(Vector& values, std::int64_t n) {
+  if (values.capacity() < static_cast<std::size_t>(n)) {
+    Vector().swap(values);
+    values.reserve(static_cast<std::size_t>(n + n / 16));
+  }
+  values.resize(static_cast<std::size_t>(n));
+}
 
 } // namespace sandglass

@@ -64,17 +64,28 @@ private:
 
 struct CellGrid::Bounds {
   __m256d low = _mm256_set1_pd(1e300), high = _mm256_set1_pd(-1e300); ///< positions, and radii in w
-  double allowed = 0.0;                                               ///< largest motion
+  __m256d slow = low, fast = high;                                    ///< of velocities, and 1/mass in w
+  double allowed = 0.0; ///< largest motion, or square of the speed
 
-  void take(const Quad& place, double motion) { // numbers that are none are passed over
-    const __m256d q = _mm256_load_pd(&place.x);
+  void take(const Quad& place, const Quad& motion,
+            double allowance) { // numbers that are none are passed over
+    const __m256d q = _mm256_load_pd(&place.x), v = _mm256_load_pd(&motion.x);
     low = _mm256_min_pd(q, low);
     high = _mm256_max_pd(q, high);
-    allowed = std::max(allowed, motion);
+    slow = _mm256_min_pd(v, slow);
+    fast = _mm256_max_pd(v, fast);
+    allowed = std::max(allowed, allowance);
+  }
+  /// The last number where it is the same for all.
+  static double same(__m256d least, __m256d greatest) {
+    const double a = Numbers(least).at[3], b = Numbers(greatest).at[3];
+    return a == b ? a : 0.0;
   }
   void merge(const Bounds& other) {
     low = _mm256_min_pd(low, other.low);
     high = _mm256_max_pd(high, other.high);
+    slow = _mm256_min_pd(slow, other.slow);
+    fast = _mm256_max_pd(fast, other.fast);
     allowed = std::max(allowed, other.allowed);
   }
 };
@@ -139,7 +150,8 @@ void CellGrid::lay(const Domain& domain, const Bounds& bounds) {
 }
 
 void CellGrid::sort(GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
-                    const std::vector<std::uint8_t>& drop, AlignedVector<Quad>& scratch) {
+                    const std::vector<std::uint8_t>& drop, AlignedVector<Quad>& scratch,
+                    const Allowance& allowance) {
   const std::int64_t n = static_cast<std::int64_t>(grains.size());
   const auto stays = [&](std::int64_t i) { return drop.empty() || !drop[i]; };
 
@@ -165,13 +177,17 @@ void CellGrid::sort(GrainStore& grains, const Domain& domain, double range, Para
       }
       if (!stays(i)) continue;
       ++count;
-      mine.take(grains.place[i], grains.listed[i].w);
+      mine.take(grains.place[i], grains.motion[i],
+                allowance ? grains.motion[i].vec().squaredNorm() : grains.listed[i].w);
     }
     const std::lock_guard lock(guard);
     bounds.merge(mine);
     staying += count;
   });
 
+  oneRadius_ = Bounds::same(bounds.low, bounds.high);
+  oneInverseMass_ = Bounds::same(bounds.slow, bounds.fast);
+  if (allowance) bounds.allowed = allowance(std::sqrt(bounds.allowed));
   const double margin = bounds.allowed + 0.5 * range;
   const double most = Numbers(bounds.high).at[3] + margin, least = Numbers(bounds.low).at[3] + margin;
   const auto reachOf = [&](std::int64_t i) { return grains.place[i].w + margin; };

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sandglass {
@@ -33,11 +34,16 @@ public:
   /// The reach of a grain, here, is its radius + range / 2 + the largest motion that any grain is allowed
   /// (`listed.w`), so that the cells do not depend on how allowances are shared out among grains.
   ///
+  /// If `allowance` is given, what it says of the fastest grain is the largest motion [m] allowed, whatever
+  /// `listed.w` is; it grows with speed [m/s].
+  using Allowance = std::function<double(double speed)>;
+
   /// Wraps the grains into the periodic box, lays the cells out and sorts: order()[k] is the grain that comes
   /// k-th. Grains of one cell keep their order, so what is sorted already stays as it is. Grains whose `drop`
   /// flag is set are left out. `scratch` is memory to work in, made larger if need be; what it held is lost.
   void sort(GrainStore& grains, const Domain& domain, double range, Parallel& parallel,
-            const std::vector<std::uint8_t>& drop, AlignedVector<Quad>& scratch);
+            const std::vector<std::uint8_t>& drop, AlignedVector<Quad>& scratch,
+            const Allowance& allowance = {});
 
   const std::vector<Level>& levels() const { return levels_; } ///< fine to coarse
   const std::vector<std::int32_t>& order() const { return order_; }
@@ -46,6 +52,9 @@ public:
   /// By how many boxes each grain's image counters grew, packed (ImageCodes::pack), in the order before
   /// sorting; empty without periodic directions.
   const std::vector<std::int32_t>& wrapped() const { return wrapped_; }
+  /// Radius [m] and 1/mass [1/kg] of all grains; 0 where they differ.
+  double oneRadius() const { return oneRadius_; }
+  double oneInverseMass() const { return oneInverseMass_; }
   const std::array<bool, 3>& periodic() const { return periodic_; }
   double largestReach() const { return levels_.back().reach; }
   std::size_t bytes() const;
@@ -56,6 +65,7 @@ private:
   void lay(const Domain& domain, const Bounds& bounds);
 
   std::array<bool, 3> periodic_{};
+  double oneRadius_ = 0.0, oneInverseMass_ = 0.0;
   std::vector<Level> levels_;
   std::vector<std::int32_t> order_, start_, wrapped_;
 };

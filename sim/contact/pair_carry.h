@@ -1,54 +1,45 @@
 #pragma once
-// Carries histories from one listing to the next. No keys are stored: the old pair is looked up through the
-// old slots of one of its grains, by the old storage index of the other and by the image.
+// Carries histories from one listing to the next. Most pairs near each other do not touch, and have nothing
+// to carry: so old pairs are gone through, and those that have something look for themselves in the new row
+// of the one of their grains that comes first now.
 
 #include "sim/contact/pair_listing.h"
+#include "sim/contact/pair_search.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace sandglass {
 
+/// Where the rows of all grains are found.
+struct RowTable {
+  std::vector<const FoundRows*> ofGroup;   ///< of the grains of a group
+  std::vector<std::int32_t> first, length; ///< of each grain
+};
+
 class PairCarrier {
 public:
-  /// Makes a listing the old one: what empty slots point at gets a pair and the like.
-  static void retire(PairListing& listing);
+  /// `newOf` gives the new storage index of each old grain, or -1, and `wrapped` by how many boxes (packed,
+  /// by old index) its image counters have grown since then (empty without periodic directions). Histories
+  /// are floats if they are `single`.
+  PairCarrier(const PairKeys& past, PairKeys& now, const RowTable& rows,
+              const std::vector<std::int32_t>& newOf, const std::vector<std::int32_t>& wrapped);
 
-  /// `order` gives the old storage index of each grain, and `wrapped` by how many boxes (packed, by old
-  /// index) its image counters have grown since then (empty without periodic directions).
-  /// `pastHistory` is the old array of histories with `lane` histories of zeros behind it; both arrays are of
-  /// floats if they are `single`.
-  PairCarrier(const PairListing& past, const double* pastHistory, PairListing& now,
-              const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& wrapped,
-              int historySize, bool single);
-
-  /// The row of grain i, `count` partners whose pairs stand at `places`: copies histories and live flags, or
-  /// sets them to zero. The pairs are written already.
-  void carry(std::int64_t i, const std::int32_t* partners, std::int64_t count, const std::int64_t* places);
+  /// Old pairs first .. last - 1, multiples of the lane: hands on histories and live flags. All new ones are
+  /// zeros.
+  void carry(std::int64_t first, std::int64_t last, const Quad* pastHistory, Quad* history, int historySize,
+             bool single) const;
 
 private:
-  struct Row; ///< a grain whose old contacts are at hand
   template <int fixedSize, class Real>
-  void carryRow(const Row& row, const std::int32_t* partners, std::int64_t count, const std::int64_t* places);
-  void startAnew(std::int64_t p);
-  bool sameImage(std::int64_t old, std::int64_t p) const;
-  std::int64_t find(const Row& row, unsigned matches, std::int32_t partner, std::int64_t p) const;
-  std::int64_t findAmong(std::int32_t grain, std::int32_t partner, std::int64_t p) const;
-  std::int64_t findFurther(std::int32_t grain, std::int32_t partner, std::int64_t p) const;
+  void carryAs(std::int64_t first, std::int64_t last, const Real* past, Real* now, int historySize) const;
+  std::int64_t find(std::int64_t old) const;
+  int codeNow(PairKeys::Pair old, int code) const;
 
-  const std::int32_t* slotsOf(std::int32_t oldGrain) const {
-    return past_.slots.data() + static_cast<std::int64_t>(oldGrain) * PairListing::slotCount;
-  }
-
-  const PairListing& past_;
-  const double* pastHistory_;
-  PairListing& now_;
-  const std::vector<std::int32_t>&order_, &wrapped_;
-  const std::int32_t* flat_; ///< old pairs as numbers: entry ^ 1 is where the other grain of an entry stands
-  const std::int32_t empty_; ///< what stands in an empty old slot
-  const int historySize_;
-  const bool single_;
+  const PairKeys& past_;
+  PairKeys& now_;
+  const RowTable& rows_;
+  const std::vector<std::int32_t>&newOf_, &wrapped_;
   const bool imaged_, sameCodes_; ///< image codes mean what they meant
 };
 

@@ -39,12 +39,8 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
   view_.ownTorque = laws_.ownTorque();
   view_.sumsOverlaps = laws_.sumsOverlaps();
   view_.reads = laws_.reads();
-  view_.oneRadius = grains.size() > 0 ? grains.place[0].w : 0.0;
-  view_.oneInverseMass = grains.size() > 0 ? grains.motion[0].w : 0.0;
-  for (std::size_t i = 0; i < grains.size() && (view_.oneRadius > 0.0 || view_.oneInverseMass > 0.0); ++i) {
-    if (grains.place[i].w != view_.oneRadius) view_.oneRadius = 0.0;
-    if (grains.motion[i].w != view_.oneInverseMass) view_.oneInverseMass = 0.0;
-  }
+  view_.oneRadius = list.oneRadius();
+  view_.oneInverseMass = list.oneInverseMass();
   pickLoop(material);
   if (!laws_.mixed()) return;
   mixed_.bind(grains, list, view_);

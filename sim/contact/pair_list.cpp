@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
 
 namespace sandglass {
 
@@ -50,60 +53,50 @@ PairList::PairList(const Domain& domain, int historySize, int outputStride, bool
 }
 
 void PairList::build(GrainStore& grains, double range, Parallel& parallel,
-                     const std::vector<std::uint8_t>& drop, const Allow& allow) {
-  grid_.sort(grains, domain_, range, parallel, drop, memory_);
-  grains.reorder(grid_.order(), parallel, memory_);
-  std::swap(now_, past_);
-  std::swap(now_.history, past_.history); // stays
-  PairCarrier::retire(past_);
-  now_.grains = static_cast<std::int64_t>(grains.size());
-  lendMemory(parallel);
-  fillColumns(grains, range, parallel, allow);
+                     const std::vector<std::uint8_t>& drop, const Allowance& allowance) {
+  grid_.sort(grains, domain_, range, parallel, drop, memory_, allowance);
+  const auto n = static_cast<std::int64_t>(grid_.order().size());
+  makeRoom(columnMemory_, static_cast<std::int64_t>(GrainColumns::numbers(n)));
+  columns_ = GrainColumns(n, columnMemory_.data());
+  const auto fill = [&](std::int64_t first, std::int64_t last) {
+    fillColumns(grains, range, allowance, first, last);
+  };
+  static_assert(group == GrainStore::run);
+  grains.reorder(grid_.order(), parallel, memory_,
+                 allowance ? GrainStore::Placed(fill) : GrainStore::Placed());
+  if (!allowance) fill(0, n);
+  std::swap(static_cast<PairKeys&>(now_), past_);
+  now_.grains = n;
 
   if (periodic_) now_.codes = ImageCodes(domain_, 2.0 * grid_.largestReach());
   cut(now_.grains);
-  search(parallel);
+  search(grains, parallel);
   layOut();
   writeRows(grains, parallel);
+  carryHistories(parallel);
   const auto outputs = static_cast<std::size_t>((crossing_.end * outputStride_ + 3) / 4);
   if (memory_.size() < outputs) memory_.resize(outputs);
   link(parallel);
   findPlaces(parallel);
 }
 
-/// Room for the columns and for the old histories.
-void PairList::lendMemory(Parallel& parallel) {
-  const std::size_t columns = GrainColumns::numbers(now_.grains), old = now_.history.size(),
-                    zeros = static_cast<std::size_t>(lane * historySize_);
-  const std::size_t quads = (columns + old + zeros) / 4 + 1;
-  if (memory_.size() < quads) memory_.resize(quads);
-  double* const memory = &memory_[0].x;
-  columns_ = GrainColumns(now_.grains, memory);
-  pastHistory_ = memory + columns;
-  parallel.forRange(static_cast<std::int64_t>(old), 16384, [&](std::int64_t first, std::int64_t last) {
-    std::copy(now_.history.begin() + first, now_.history.begin() + last, pastHistory_ + first);
-  });
-  std::fill_n(pastHistory_ + old, zeros, 0.0);
-}
-
-void PairList::fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow) {
-  const std::int64_t n = static_cast<std::int64_t>(grains.size());
-  parallel.forRange((n + group - 1) / group, grainsPerPiece / group, [&](std::int64_t from, std::int64_t to) {
-    for (std::int64_t g = from; g < to; ++g) {
-      const std::int64_t first = g * group, last = std::min(n, first + group);
-      for (std::int64_t i = first; i < last; ++i) {
-        const Quad q = grains.place[i];
-        grains.listed[i] = {q.x, q.y, q.z, grains.listed[i].w};
-        columns_.x[i] = q.x;
-        columns_.y[i] = q.y;
-        columns_.z[i] = q.z;
-        columns_.reach[i] = q.w + 0.5 * range;
-      }
-      if (allow) allow(first, last);
-      for (std::int64_t i = first; i < last; ++i)
-        columns_.reach[i] += grains.listed[i].w;
-    }
-  });
+/// Columns and `listed` of the grains of a group, or of all.
+void PairList::fillColumns(GrainStore& grains, double range, const Allowance& allowance, std::int64_t first,
+                           std::int64_t last) {
+  double fastest = 0.0;
+  for (std::int64_t i = first; allowance && i < last; ++i)
+    fastest = std::max(fastest, grains.motion[i].vec().squaredNorm());
+  const double allowed = allowance ? allowance(std::sqrt(fastest)) : 0.0;
+  for (std::int64_t i = first; i < last; ++i) {
+    const Quad q = grains.place[i];
+    const double motion = allowance ? allowed : grains.listed[i].w;
+    grains.listed[i] = {q.x, q.y, q.z, motion};
+    columns_.x[i] = q.x;
+    columns_.y[i] = q.y;
+    columns_.z[i] = q.z;
+    columns_.radius[i] = q.w;
+    columns_.reach[i] = q.w + 0.5 * range + motion;
+  }
 }
 
 /// Chunks and blocks of whole groups.
@@ -129,14 +122,39 @@ void PairList::cut(std::int64_t grains) {
   blocks_.resize(used);
 }
 
-void PairList::search(Parallel& parallel) {
-  rowLength_.resize(static_cast<std::size_t>(now_.grains));
+/// Finds all rows, and where in its block each pair stands.
+void PairList::search(const GrainStore& grains, Parallel& parallel) {
+  rows_.length.resize(static_cast<std::size_t>(now_.grains));
+  rows_.first.resize(rows_.length.size());
+  rows_.ofGroup.resize(static_cast<std::size_t>(now_.groups()));
+  groupEnd_.resize(static_cast<std::size_t>(now_.groups()));
+  groupReach_.resize(groupEnd_.size());
+  groupLast_.resize(groupEnd_.size());
   const PairSearch search(grid_, now_.codes, columns_, bestKernelWidth());
   parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
+    PairOrder order;
     for (std::int64_t b = first; b < last; ++b) {
       Block& block = blocks_[b];
-      search.rows(block.firstGrain, block.lastGrain, chunkGrains_[block.chunk].end,
-                  rowLength_.data() + block.firstGrain, block.rows);
+      const std::int64_t chunkEnd = chunkGrains_[block.chunk].end;
+      search.rows(block.firstGrain, block.lastGrain, chunkEnd, rows_.length.data() + block.firstGrain,
+                  block.rows);
+      std::int32_t at = 0;
+      for (std::int64_t i = block.firstGrain; i < block.lastGrain; ++i) {
+        rows_.first[i] = at;
+        at += rows_.length[i];
+      }
+      std::fill(rows_.ofGroup.begin() + block.firstGrain / group,
+                rows_.ofGroup.begin() + (block.lastGrain + group - 1) / group, &block.rows);
+      block.rows.place.resize(block.rows.partner.size());
+      std::int64_t inside = 0, crossing = 0;
+      for (std::int64_t i = block.firstGrain; i < block.lastGrain; i += group) {
+        const std::int32_t from = rows_.first[i];
+        order.place(
+            {i, std::min(i + group, block.lastGrain), rows_.length.data() + i,
+             block.rows.partner.data() + from, periodic_ ? block.rows.code.data() + from : nullptr, chunkEnd},
+            columns_, grains, now_.codes.shift.data(), inside, crossing, block.rows.place.data() + from);
+        groupEnd_[i / group] = inside;
+      }
     }
   });
 }
@@ -180,14 +198,11 @@ void PairList::layOut() {
         at));
 
   now_.entries = at;
-  makeRoom(now_.pairs, at, 1);
-  if (periodic_) makeRoom(now_.shiftOf, at, 1); // and one more each to retire
-  makeRoom(now_.history, at * historySize_ / (single_ ? 2 : 1));
+  makeRoom(now_.pairs, at);
+  if (periodic_) makeRoom(now_.shiftOf, at);
   // Loops look a block ahead.
   quiet_.assign(static_cast<std::size_t>(historySize_ > 0 ? at + ContactBlock::capacity : 0), 0);
-  if (keepsLive_) makeRoom(now_.live, at, 1);
-  groupEnd_.resize(static_cast<std::size_t>(now_.groups()));
-  groupReach_.resize(groupEnd_.size());
+  if (keepsLive_) now_.live.assign(static_cast<std::size_t>(at), 0);
   for (const Range& pad : pads)
     fillPadding(pad.begin, pad.end);
 }
@@ -196,55 +211,76 @@ void PairList::fillPadding(std::int64_t from, std::int64_t to) {
   for (std::int64_t p = from; p < to; ++p) {
     now_.pairs[p] = {static_cast<std::int32_t>(now_.grains), static_cast<std::int32_t>(now_.grains + 1)};
     if (periodic_) now_.shiftOf[p] = static_cast<std::uint8_t>(now_.codes.center());
-    if (keepsLive_) now_.live[p] = 0;
-    for (int k = 0; k < historySize_; ++k)
-      setHistory(p, k, 0.0);
   }
 }
 
 void PairList::writeRows(const GrainStore& grains, Parallel& parallel) {
-  const bool carries = historySize_ > 0 || keepsLive_;
-  const std::int64_t* id = grains.id.data();
-  const auto noShift = static_cast<std::uint8_t>(now_.codes.center());
-  parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t first, std::int64_t last) {
-    PairOrder order;
-    PairCarrier carrier(past_, pastHistory_, now_, grid_.order(), grid_.wrapped(), historySize_, single_);
-    for (std::int64_t b = first; b < last; ++b) {
-      const Block& block = blocks_[b];
-      const std::int64_t chunkEnd = chunkGrains_[block.chunk].end;
-      const std::int32_t* partner = block.rows.partner.data();
-      const std::uint8_t* code = periodic_ ? block.rows.code.data() : nullptr;
-      std::int64_t inside = block.firstPair, crossing = block.firstCrossing;
-      for (std::int64_t first = block.firstGrain; first < block.lastGrain; first += group) {
-        const std::int64_t last = std::min(first + group, block.lastGrain);
-        const std::int64_t* place =
-            order.place({first, last, rowLength_.data() + first, partner, code, chunkEnd}, columns_, grains,
-                        now_.codes.shift.data(), inside, crossing);
-        std::int64_t reach = last - 1;
-        for (std::int64_t i = first; i < last; ++i) {
-          const auto me = static_cast<std::int32_t>(i);
-          const std::int64_t mine = id[i], length = rowLength_[i];
-          for (std::int64_t k = 0; k < length; ++k) {
-            const std::int32_t j = partner[k];
-            const bool turned = mine > id[j]; // oriented by id
-            now_.pairs[place[k]] = {turned ? j : me, turned ? me : j};
-            if (!code) continue;
-            const int seen = code[k]; // turning a pair round mirrors its image
-            now_.shiftOf[place[k]] = static_cast<std::uint8_t>(turned ? now_.codes.mirrored(seen) : seen);
-          }
-          std::int64_t k = length; // partners ascend
-          while (k > 0 && (partner[k - 1] >= chunkEnd || (code && code[k - 1] != noShift)))
-            --k;
-          if (k > 0) reach = std::max<std::int64_t>(reach, partner[k - 1]);
-          if (carries) carrier.carry(i, partner, length, place);
-          partner += length;
-          place += length;
-          if (code) code += length;
-        }
-        groupEnd_[first / group] = inside;
-        groupReach_[first / group] = reach;
-      }
-    }
+  parallel.forRange(static_cast<std::int64_t>(blocks_.size()), 1, [&](std::int64_t from, std::int64_t to) {
+    std::vector<std::int32_t> owner;
+    for (std::int64_t b = from; b < to; ++b)
+      for (std::int64_t first = blocks_[b].firstGrain; first < blocks_[b].lastGrain; first += group)
+        writeGroup(grains, blocks_[b], first, owner);
+  });
+}
+
+/// The rows of a group. There is no branch on the order of ids, which cannot be foreseen.
+void PairList::writeGroup(const GrainStore& grains, Block& block, std::int64_t first,
+                          std::vector<std::int32_t>& owners) {
+  const std::int64_t g = first / group, last = std::min(first + group, block.lastGrain);
+  const std::int64_t count = spreadRows(rows_.length.data() + first, first, last - first, owners);
+  const auto chunkEnd = static_cast<std::int32_t>(chunkGrains_[block.chunk].end);
+  const auto firstPair = static_cast<std::int32_t>(block.firstPair),
+             firstCrossing = static_cast<std::int32_t>(block.firstCrossing);
+  const std::int64_t* const id = grains.id.data();
+  const std::int32_t *const owner = owners.data(), *const partner =
+                                                       block.rows.partner.data() + rows_.first[first];
+  std::int32_t* const place = block.rows.place.data() + rows_.first[first];
+  auto* const pairs = reinterpret_cast<char*>(now_.pairs.data());
+  std::int32_t furthest = static_cast<std::int32_t>(last - 1);
+  for (std::int64_t k = 0; k < count; ++k) {
+    const std::int32_t i = owner[k], j = partner[k];
+    const bool inside = j < chunkEnd;
+    const std::int32_t p = place[k] + (inside ? firstPair : firstCrossing);
+    place[k] = p;
+    furthest = std::max(furthest, inside ? j : 0);
+    const std::uint64_t pair = static_cast<std::uint32_t>(i) | static_cast<std::uint64_t>(j) << 32;
+    const std::uint64_t byId = std::rotl(pair, id[i] > id[j] ? 32 : 0); // oriented by id
+    std::memcpy(pairs + sizeof byId * static_cast<std::size_t>(p), &byId, sizeof byId);
+  }
+  groupEnd_[g] += firstPair;
+  groupReach_[g] = furthest;
+  groupLast_[g] = furthest / static_cast<std::int32_t>(group);
+  if (!periodic_) return;
+  const std::uint8_t* const code = block.rows.code.data() + rows_.first[first];
+  std::uint8_t* const shiftOf = now_.shiftOf.data();
+  const int mirror = now_.codes.mirrored(0), center = now_.codes.center();
+  furthest = static_cast<std::int32_t>(last - 1);
+  for (std::int64_t k = 0; k < count; ++k) {
+    const std::int32_t i = owner[k], j = partner[k];
+    const int seen = code[k]; // turning a pair round mirrors its image
+    shiftOf[place[k]] = static_cast<std::uint8_t>(id[i] > id[j] ? mirror - seen : seen);
+    furthest = std::max(furthest, j < chunkEnd && seen == center ? j : 0);
+  }
+  groupReach_[g] = furthest;
+}
+
+/// New histories, where columns and records were, and the old ones to memory.
+void PairList::carryHistories(Parallel& parallel) {
+  if (historySize_ == 0 && !keepsLive_) return;
+  constexpr std::int64_t pairsPerPiece = 8192, quad = 4;
+  const std::int64_t numbers = now_.entries * historySize_ / (single_ ? 2 : 1);
+  if (memory_.size() < static_cast<std::size_t>(numbers / quad)) makeRoom(memory_, numbers / quad);
+  std::swap(memory_, now_.history);
+  parallel.forRange(numbers / quad, pairsPerPiece, [&](std::int64_t first, std::int64_t last) {
+    std::fill(now_.history.begin() + first, now_.history.begin() + last, Quad{});
+  });
+  const std::vector<std::int32_t>& order = grid_.order();
+  newOf_.assign(static_cast<std::size_t>(past_.grains), -1);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    if (order[k] < past_.grains) newOf_[order[k]] = static_cast<std::int32_t>(k);
+  const PairCarrier carrier(past_, now_, rows_, newOf_, grid_.wrapped());
+  parallel.forRange(past_.entries / lane, pairsPerPiece / lane, [&](std::int64_t first, std::int64_t last) {
+    carrier.carry(first * lane, last * lane, memory_.data(), now_.history.data(), historySize_, single_);
   });
 }
 
@@ -253,12 +289,12 @@ std::vector<double> PairList::histories() const {
     return std::vector<double>(all, all + now_.entries * historySize_);
   };
   return single_ ? numbers(reinterpret_cast<const float*>(now_.history.data()))
-                 : numbers(now_.history.data());
+                 : numbers(reinterpret_cast<const double*>(now_.history.data()));
 }
 
 bool PairList::setHistories(const std::vector<double>& all) {
   if (all.size() != static_cast<std::size_t>(now_.entries * historySize_)) return false;
-  double* const to = now_.history.data();
+  double* const to = history();
   if (single_)
     std::transform(all.begin(), all.end(), reinterpret_cast<float*>(to),
                    [](double value) { return static_cast<float>(value); });
@@ -283,11 +319,14 @@ std::int64_t PairList::imageKey(std::int64_t p, const GrainStore& grains) const 
 }
 
 std::size_t PairList::bytes() const {
-  std::size_t total = now_.bytes() + past_.bytes() + memory_.capacity() * sizeof(Quad) +
-                      (groupEnd_.capacity() + groupReach_.capacity()) * sizeof(std::int64_t) +
-                      quiet_.capacity() + grid_.bytes() + rowLength_.capacity() * sizeof(std::int32_t) +
-                      filled_.capacity() + places_.capacity() * sizeof(std::int32_t) +
-                      lent_.capacity() * sizeof(Extra) + groupLent_.capacity() * sizeof(std::int32_t);
+  std::size_t total =
+      now_.bytes() + past_.bytes() + memory_.capacity() * sizeof(Quad) +
+      columnMemory_.capacity() * sizeof(double) +
+      (groupEnd_.capacity() + groupReach_.capacity()) * sizeof(std::int64_t) + quiet_.capacity() +
+      grid_.bytes() +
+      (rows_.first.capacity() + rows_.length.capacity() + newOf_.capacity()) * sizeof(std::int32_t) +
+      filled_.capacity() + places_.capacity() * sizeof(std::int32_t) + lent_.capacity() * sizeof(Extra) +
+      groupLent_.capacity() * sizeof(std::int32_t);
   for (const Block& block : blocks_)
     total += block.rows.bytes();
   return total;

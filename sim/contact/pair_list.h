@@ -13,6 +13,7 @@
 
 #include "sim/base/parallel.h"
 #include "sim/contact/cell_grid.h"
+#include "sim/contact/pair_carry.h"
 #include "sim/contact/pair_listing.h"
 #include "sim/contact/pair_search.h"
 #include "sim/grains/grain_store.h"
@@ -20,7 +21,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace sandglass {
@@ -46,18 +46,17 @@ public:
   /// doubles, or floats if `single`.
   PairList(const Domain& domain, int historySize, int outputStride, bool keepsLive, bool single = false);
 
-  /// Sets `listed.w` of the grains first .. last - 1, of one group. Called from several threads at once, for
-  /// different groups. The largest value of all grains must stay what it was.
-  using Allow = std::function<void(std::int64_t first, std::int64_t last)>;
+  /// How far grains may move [m] that are as fast as this [m/s]; grows with speed.
+  using Allowance = CellGrid::Allowance;
 
   /// Sorts the grains by cell, wraps them into the periodic box, remembers where they are (listed.x,y,z) and
   /// lists all pairs with distance below r_a + r_b + range + listed.w of a + listed.w of b, where `listed.w`
-  /// of a grain, set by the caller, is how far it may move before the list is too old. `allow` may set it
-  /// anew once the grains are sorted and grouped. Pairs that were listed before keep their history (and live
-  /// flag), at the same key; since then, grains may have been appended, but not moved in storage. Grains
-  /// whose `drop` flag is set leave the store (an empty `drop` keeps all).
+  /// of a grain, set by the caller, is how far it may move before the list is too old. If `allowance` is
+  /// given, it is set here: all grains of a group have what the fastest of them needs. Pairs that were listed
+  /// before keep their history (and live flag), at the same key; since then, grains may have been appended,
+  /// but not moved in storage. Grains whose `drop` flag is set leave the store (an empty `drop` keeps all).
   void build(GrainStore& grains, double range, Parallel& parallel, const std::vector<std::uint8_t>& drop = {},
-             const Allow& allow = {});
+             const Allowance& allowance = {});
 
   std::int64_t entries() const { return now_.entries; }           ///< with padding; a multiple of `lane`
   std::int64_t size() const { return size_; }                     ///< real pairs
@@ -71,6 +70,10 @@ public:
   std::array<int, 3> image(std::int64_t p) const;
   /// Box crossings of b against a, which does not change when grains are wrapped: the third part of the key.
   std::int64_t imageKey(std::int64_t p, const GrainStore& grains) const;
+
+  /// Of all grains; 0 where they differ.
+  double oneRadius() const { return grid_.oneRadius(); }
+  double oneInverseMass() const { return grid_.oneInverseMass(); }
 
   // Sections. Chunks are whole groups of grains. Ranges of pairs include their padding: crossing() and the
   // chunks' pairs follow each other without gaps, up to entries().
@@ -103,7 +106,7 @@ public:
     return mine >= 0 ? ring + (mine & (window_ - 1)) * outputStride_ : &memory_[0].x + pair * outputStride_;
   }
 
-  // All contacts of a grain, by which the next listing finds histories: entries are (pair << 1 | 1 when the
+  // All contacts of a grain: entries are (pair << 1 | 1 when the
   // grain is b); empty slots are entries() << 1, and what has no slot stands among the extras.
   const std::int32_t* slots(std::int64_t grain) const { return now_.slots.data() + grain * slotCount; }
   const std::vector<Extra>& extras() const { return now_.extras; } ///< ordered by grain
@@ -113,16 +116,17 @@ public:
 
   // Histories: number k of pair p is history()[(p / lane) * lane * historySize + k * lane + p % lane], in
   // floats if they are single.
-  double* history() { return now_.history.data(); }
+  double* history() { return reinterpret_cast<double*>(now_.history.data()); }
   double historyOf(std::int64_t p, int k) const {
-    const double* all = now_.history.data();
-    return single_ ? reinterpret_cast<const float*>(all)[placeOf(p, k)] : all[placeOf(p, k)];
+    const Quad* all = now_.history.data();
+    return single_ ? reinterpret_cast<const float*>(all)[placeOf(p, k)]
+                   : reinterpret_cast<const double*>(all)[placeOf(p, k)];
   }
   void setHistory(std::int64_t p, int k, double value) {
     if (single_)
       reinterpret_cast<float*>(now_.history.data())[placeOf(p, k)] = static_cast<float>(value);
     else
-      now_.history[placeOf(p, k)] = value;
+      history()[placeOf(p, k)] = value;
     for (const int lanes : {1, 4, 8, 16})
       quiet_[p / lanes] = 0;
   }
@@ -154,13 +158,16 @@ private:
   std::size_t placeOf(std::int64_t p, int k) const {
     return static_cast<std::size_t>(p / lane * lane * historySize_ + k * lane + p % lane);
   }
-  void fillColumns(GrainStore& grains, double range, Parallel& parallel, const Allow& allow);
-  void lendMemory(Parallel& parallel);
+  void fillColumns(GrainStore& grains, double range, const Allowance& allowance, std::int64_t first,
+                   std::int64_t last);
   void cut(std::int64_t grains);
-  void search(Parallel& parallel);
+  void search(const GrainStore& grains, Parallel& parallel);
   void layOut();
   void fillPadding(std::int64_t from, std::int64_t to);
   void writeRows(const GrainStore& grains, Parallel& parallel);
+  void writeGroup(const GrainStore& grains, Block& block, std::int64_t first,
+                  std::vector<std::int32_t>& owners);
+  void carryHistories(Parallel& parallel);
   void link(Parallel& parallel);
   void findPlaces(Parallel& parallel);
 
@@ -168,9 +175,10 @@ private:
   bool periodic_ = false;
   int historySize_, outputStride_;
   bool keepsLive_, single_;
-  PairListing now_, past_; ///< past_: the listing before, while histories are carried, but for the histories
+  PairListing now_;
+  PairKeys past_; ///< of the listing before, while histories are carried
   std::int64_t size_ = 0;
-  AlignedVector<Quad> memory_; ///< outputs of crossing pairs; during a build for anybody
+  AlignedVector<Quad> memory_; ///< outputs of crossing pairs; during a build for anybody, old histories last
   std::int64_t window_ = 64;
   AlignedVector<std::int32_t> places_;
   std::vector<Extra> lent_;
@@ -179,14 +187,16 @@ private:
   std::vector<Range> chunkGrains_, chunkPairs_,
       chunkCrossing_; ///< the last: crossing rows of a chunk's grains
   std::vector<std::int64_t> groupEnd_, groupReach_;
+  std::vector<std::int32_t> groupLast_; ///< the group of the last grain of its chunk that a group's rows name
   std::vector<std::uint8_t> quiet_;
 
   // Of use during a build alone; kept because asking for memory anew costs more than the search.
   CellGrid grid_;
-  GrainColumns columns_;          ///< in memory_
-  double* pastHistory_ = nullptr; ///< likewise
+  AlignedVector<double> columnMemory_;
+  GrainColumns columns_; ///< there
   std::vector<Block> blocks_;
-  std::vector<std::int32_t> rowLength_;
+  RowTable rows_;
+  std::vector<std::int32_t> newOf_; ///< new storage index of each old grain
   std::vector<std::uint8_t> filled_;
 };
 

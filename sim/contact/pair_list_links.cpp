@@ -3,6 +3,8 @@
 
 #include "sim/contact/pair_list.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -25,6 +27,12 @@ void gather(const std::vector<std::vector<PairListing::Extra>>& parts, std::int6
     ++groupFirst[e.grain / PairListing::group + 1];
   for (std::size_t g = 1; g < groupFirst.size(); ++g)
     groupFirst[g] += groupFirst[g - 1];
+}
+
+/// ringEntry() of eight places, of pairs whose first grain an even entry means.
+__m256i ringEntries(__m256i places, __m256i entries) {
+  const __m256i first = _mm256_andnot_si256(entries, _mm256_set1_epi32(1));
+  return _mm256_or_si256(_mm256_slli_epi32(places, 4), _mm256_slli_epi32(first, 3));
 }
 
 } // namespace
@@ -89,40 +97,44 @@ void PairList::link(Parallel& parallel) {
 /// Length of the ring, and where in it the outputs of each grain stand.
 void PairList::findPlaces(Parallel& parallel) {
   const int chunkCount = chunks();
-  const Pair* pairs = now_.pairs.data();
   const std::int64_t n = now_.grains;
-  std::vector<std::int64_t> windows(chunkCount, 0);
-  parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t c = first; c < last; ++c)
-      for (std::int64_t p = chunkPairs_[c].begin; p < chunkPairs_[c].end && pairs[p].a < n; ++p)
-        windows[c] = std::max(windows[c], groupEnd_[std::max(pairs[p].a, pairs[p].b) / group] - p);
-  });
+  std::int64_t longest = 0; // from the first pair of a group to where the last grain that it names is summed
+  for (int c = 0; c < chunkCount; ++c) {
+    std::int64_t begin = chunkPairs_[c].begin;
+    for (std::int64_t g = chunkGrains_[c].begin / group; g < (chunkGrains_[c].end + group - 1) / group; ++g) {
+      longest = std::max(longest, groupEnd_[groupLast_[g]] - begin);
+      begin = groupEnd_[g];
+    }
+  }
   constexpr std::int64_t block = 64; // may be written as a whole before its first pair is needed
-  window_ = static_cast<std::int64_t>(
-      std::bit_ceil(static_cast<std::uint64_t>(*std::max_element(windows.begin(), windows.end()) + block)));
+  window_ = static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(longest + block)));
   const std::int32_t empty = ringEntry(window_, true);
   makeRoom(places_, n * slotCount);
   std::vector<std::vector<Extra>> lent(chunkCount);
   parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t c = first; c < last; ++c) {
       const auto [begin, end] = chunkGrains_[c];
-      const std::int64_t ringBegin = chunkPairs_[c].begin, mask = window_ - 1;
+      const __m256i begins = _mm256_set1_epi32(static_cast<std::int32_t>(chunkPairs_[c].begin)),
+                    masks = _mm256_set1_epi32(static_cast<std::int32_t>(window_ - 1)),
+                    none = _mm256_set1_epi32(static_cast<std::int32_t>(now_.entries << 1));
       std::int64_t atLent = 0;
       for (std::int64_t i = begin; i < end; ++i) {
         const std::int32_t* slots = now_.slots.data() + i * slotCount;
         std::int32_t* places = places_.data() + i * slotCount;
         if (i % group == 0) atLent = window_ + 1;
-        for (int k = 0; k < slotCount; ++k) {
-          const std::int64_t pair = slots[k] >> 1;
-          const bool first = !(slots[k] & 1);
-          if (pair == now_.entries) {
-            places[k] = empty;
-          } else if (pair >= ringBegin) {
-            places[k] = ringEntry((pair - ringBegin) & mask, first);
-          } else {
-            places[k] = ringEntry(atLent++, first);
-            lent[c].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(pair)});
-          }
+        const __m256i entries = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(slots));
+        const __m256i pairsOf = _mm256_srai_epi32(entries, 1);
+        _mm256_storeu_si256(
+            reinterpret_cast<__m256i*>(places),
+            _mm256_blendv_epi8(
+                ringEntries(_mm256_and_si256(_mm256_sub_epi32(pairsOf, begins), masks), entries),
+                _mm256_set1_epi32(empty), _mm256_cmpeq_epi32(entries, none)));
+        const __m256i crossing = _mm256_cmpgt_epi32(begins, pairsOf);
+        for (auto lanes = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(crossing)));
+             lanes != 0; lanes &= lanes - 1) {
+          const int k = std::countr_zero(lanes);
+          places[k] = ringEntry(atLent++, !(slots[k] & 1));
+          lent[c].push_back({static_cast<std::int32_t>(i), slots[k] >> 1});
         }
       }
     }

@@ -1,63 +1,99 @@
 #include "sim/contact/pair_order.h"
 
-#include <algorithm>
+#include <immintrin.h>
+
 #include <array>
-#include <bit>
-#include <cmath>
 
 namespace sandglass {
 
-namespace {
-
-/// By how many steps, each a fourth of a power of two, `length2` is below `most2`.
-int stepsBelow(double length2, double most2) {
-  constexpr int bitsOfStep = 21; // a float has 23 behind its exponent
-  const auto bits = [](double number) { return std::bit_cast<std::int32_t>(static_cast<float>(number)); };
-  return (bits(most2) - bits(length2)) >> bitsOfStep;
+/// Squares of pairs, one behind the other; returns how many pairs there are.
+std::int64_t PairOrder::measure(const Rows& rows, const GrainColumns& columns, const GrainStore& grains,
+                                const Quad* shifts) {
+  const std::int64_t total = spreadRows(rows.length, rows.first, rows.last - rows.first, owner_);
+  const auto room = static_cast<std::size_t>(total + readAhead);
+  if (class_.size() < room) {
+    squares_.resize(room);
+    touching_.resize(room);
+    most_.resize(room);
+    class_.resize(room);
+  }
+  const Quad* const listed = grains.listed.data(); // denser than records
+  const double *const radii = columns.radius, *const reaches = columns.reach;
+  const std::int32_t *const owner = owner_.data(), *const partner = rows.partner;
+  Quad* const square = squares_.data();
+  double *const touching = touching_.data(), *const most = most_.data();
+  const std::uint8_t* const code = rows.code;
+  for (std::int64_t k = 0; k < total; ++k) {
+    const std::int32_t i = owner[k], j = partner[k];
+    __m256d apart = _mm256_sub_pd(_mm256_load_pd(&listed[j].x), _mm256_load_pd(&listed[i].x));
+    if (code) apart = _mm256_add_pd(apart, _mm256_load_pd(&shifts[code[k]].x));
+    _mm256_store_pd(&square[k].x, _mm256_mul_pd(apart, apart));
+    touching[k] = radii[i] + radii[j];
+    most[k] = reaches[i] + reaches[j];
+  }
+  return total;
 }
 
-} // namespace
+/// The class of each pair, four at a time: a class is a fourth of a power of two by which the gap or the
+/// overlap is below the largest gap. Differences of squares stand for both, since they are small beside the
+/// radii.
+void PairOrder::classify(const Rows& rows, std::int64_t count) {
+  constexpr int bitsOfStep = 21; // a float has 23 behind its exponent
+  const auto bits = [](__m256d numbers) { return _mm_castps_si128(_mm256_cvtpd_ps(numbers)); };
+  const __m128i beforeCrossing = _mm_set1_epi32(static_cast<std::int32_t>(rows.crossingFrom - 1));
+  for (std::int64_t k = 0; k < count; k += 4) {
+    const double* square = &squares_[k].x;
+    const __m256d a = _mm256_load_pd(square), b = _mm256_load_pd(square + 4), c = _mm256_load_pd(square + 8),
+                  d = _mm256_load_pd(square + 12);
+    const __m256d xzLow = _mm256_unpacklo_pd(a, b), yLow = _mm256_unpackhi_pd(a, b),
+                  xzHigh = _mm256_unpacklo_pd(c, d), yHigh = _mm256_unpackhi_pd(c, d);
+    const __m256d x = _mm256_permute2f128_pd(xzLow, xzHigh, 0x20),
+                  z = _mm256_permute2f128_pd(xzLow, xzHigh, 0x31),
+                  y = _mm256_permute2f128_pd(yLow, yHigh, 0x20);
+    const __m256d radii = _mm256_load_pd(&touching_[k]), most = _mm256_load_pd(&most_[k]);
+    const __m256d touching = _mm256_mul_pd(radii, radii);
+    const __m256d apart = _mm256_sub_pd(_mm256_add_pd(_mm256_add_pd(x, y), z), touching);
+    const __m256d widest = _mm256_sub_pd(_mm256_mul_pd(most, most), touching);
+    const __m256d length = _mm256_andnot_pd(_mm256_set1_pd(-0.0), apart);
+    const __m128i below = _mm_max_epi32(_mm_srai_epi32(_mm_sub_epi32(bits(widest), bits(length)), bitsOfStep),
+                                        _mm_setzero_si128());
+    const __m256 gaps = _mm256_castpd_ps(_mm256_cmp_pd(apart, _mm256_setzero_pd(), _CMP_GT_OQ));
+    const __m128 isGap =
+        _mm_shuffle_ps(_mm256_castps256_ps128(gaps), _mm256_extractf128_ps(gaps, 1), _MM_SHUFFLE(2, 0, 2, 0));
+    const __m128i deep = _mm_min_epi32(below, _mm_set1_epi32(deepClasses - 1)),
+                  gap = _mm_sub_epi32(_mm_set1_epi32(classes - 1),
+                                      _mm_min_epi32(below, _mm_set1_epi32(gapClasses - 1)));
+    const __m128i inside =
+        _mm_castps_si128(_mm_blendv_ps(_mm_castsi128_ps(deep), _mm_castsi128_ps(gap), isGap));
+    const __m128i partners = _mm_loadu_si128(reinterpret_cast<const __m128i*>(rows.partner + k));
+    const __m128i crossing =
+        _mm_and_si128(_mm_cmpgt_epi32(partners, beforeCrossing), _mm_set1_epi32(classes));
+    _mm_store_si128(reinterpret_cast<__m128i*>(&class_[k]), _mm_add_epi32(inside, crossing));
+  }
+}
 
-const std::int64_t* PairOrder::place(const Rows& rows, const GrainColumns& columns, const GrainStore& grains,
-                                     const Quad* shifts, std::int64_t& inside, std::int64_t& crossing) {
-  std::array<std::int64_t, 2 * classes> count{};
-  class_.clear();
-  const std::int32_t* partner = rows.partner;
-  const std::uint8_t* code = rows.code;
-  for (std::int64_t i = rows.first; i < rows.last; ++i) {
-    const Quad here = grains.place[i];
-    const double reach = columns.reach[i];
-    for (std::int32_t k = 0; k < rows.length[i - rows.first]; ++k, ++partner) {
-      const std::int32_t j = *partner;
-      const Quad there = grains.place[j];
-      double dx = there.x - here.x, dy = there.y - here.y, dz = there.z - here.z;
-      if (code) {
-        const Quad& shift = shifts[*code++];
-        dx += shift.x;
-        dy += shift.y;
-        dz += shift.z;
-      }
-      const double touching = here.w + there.w, most = reach + columns.reach[j];
-      // Differences of squares, since a gap or an overlap is small beside the radii.
-      const double apart = dx * dx + dy * dy + dz * dz - touching * touching;
-      const int below = std::max(0, stepsBelow(std::abs(apart), most * most - touching * touching));
-      const int kind =
-          (j >= rows.crossingFrom ? classes : 0) +
-          (apart > 0.0 ? classes - 1 - std::min(below, gapClasses - 1) : std::min(below, deepClasses - 1));
-      ++count[kind];
-      class_.push_back(static_cast<std::uint8_t>(kind));
+void PairOrder::place(const Rows& rows, const GrainColumns& columns, const GrainStore& grains,
+                      const Quad* shifts, std::int64_t& inside, std::int64_t& crossing,
+                      std::int32_t* places) {
+  const std::int64_t total = measure(rows, columns, grains, shifts);
+  classify(rows, total);
+  std::array<std::int32_t, 2 * classes> at{};
+  const std::int32_t* const kind = class_.data();
+  for (std::int64_t k = 0; k < total; ++k)
+    ++at[kind[k]];
+  const auto lay = [&](int first, std::int64_t& next) { // from numbers of pairs to first places
+    auto free = static_cast<std::int32_t>(next);
+    for (int c = first; c < first + classes; ++c) {
+      const std::int32_t count = at[c];
+      at[c] = free;
+      free += count;
     }
-  }
-  std::array<std::int64_t, 2 * classes> at;
-  for (int kind = 0; kind < 2 * classes; ++kind) {
-    std::int64_t& next = kind < classes ? inside : crossing;
-    at[kind] = next;
-    next += count[kind];
-  }
-  places_.clear();
-  for (const std::uint8_t kind : class_)
-    places_.push_back(at[kind]++);
-  return places_.data();
+    next = free;
+  };
+  lay(0, inside);
+  lay(classes, crossing);
+  for (std::int64_t k = 0; k < total; ++k)
+    places[k] = at[kind[k]]++;
 }
 
 } // namespace sandglass

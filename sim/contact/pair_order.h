@@ -20,15 +20,23 @@ public:
     std::int64_t crossingFrom; ///< partners from here on go to the section of crossing pairs
   };
 
-  /// Finds a place for every pair, in the order of the rows. `inside` and `crossing` are the first free
-  /// places of the two sections, and are moved on.
-  const std::int64_t* place(const Rows& rows, const GrainColumns& columns, const GrainStore& grains,
-                            const Quad* shifts, std::int64_t& inside, std::int64_t& crossing);
+  /// Finds `places` for all pairs, in the order of the rows. `inside` and `crossing` are the first free
+  /// places of the two sections, and are moved on. `partner` must be readable `readAhead` places further.
+  void place(const Rows& rows, const GrainColumns& columns, const GrainStore& grains, const Quad* shifts,
+             std::int64_t& inside, std::int64_t& crossing, std::int32_t* places);
+
+  static constexpr int readAhead = 4;
 
 private:
   static constexpr int deepClasses = 28, gapClasses = 36, classes = deepClasses + gapClasses;
-  std::vector<std::int64_t> places_;
-  std::vector<std::uint8_t> class_; ///< of each pair; crossing ones: + classes
+  std::int64_t measure(const Rows& rows, const GrainColumns& columns, const GrainStore& grains,
+                       const Quad* shifts);
+  void classify(const Rows& rows, std::int64_t count);
+
+  std::vector<std::int32_t> owner_;       ///< of each pair: the grain of its row
+  AlignedVector<Quad> squares_;           ///< of the components of its distance
+  AlignedVector<double> touching_, most_; ///< distances at which it touches and is listed [m]
+  AlignedVector<std::int32_t> class_;     ///< of each pair; crossing ones: + classes
 };
 
 } // namespace sandglass

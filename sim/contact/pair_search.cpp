@@ -10,6 +10,9 @@ namespace sandglass {
 namespace {
 
 constexpr double safety = 1e-9; ///< of a cell's width, against rounding
+/// One above the other: the grains around them still fit into registers nearly as well as those around one.
+/// Not around a periodic box, where cells might be met twice.
+constexpr std::int64_t cellsTogether = 2;
 
 int floorDivide(int a, int b) {
   return a >= 0 ? a / b : -((b - 1 - a) / b);
@@ -57,6 +60,20 @@ void sortRow(std::int32_t* partner, std::uint8_t* code, std::int64_t size) {
 
 } // namespace
 
+std::int64_t spreadRows(const std::int32_t* length, std::int64_t first, std::int64_t grains,
+                        std::vector<std::int32_t>& owner) {
+  constexpr std::int32_t atOnce = CellSearch::writeAhead;
+  std::int64_t total = 0;
+  for (std::int64_t i = 0; i < grains; ++i)
+    total += length[i];
+  if (owner.size() < static_cast<std::size_t>(total + atOnce)) owner.resize(total + atOnce);
+  std::int32_t* to = owner.data();
+  for (std::int64_t i = 0; i < grains; ++i, to += length[i - 1]) // most rows are shorter than a register
+    for (std::int32_t k = 0; k < length[i]; k += atOnce)
+      std::fill_n(to + k, atOnce, static_cast<std::int32_t>(first + i));
+  return total;
+}
+
 /// Cells one above the other on some level, in one image along x and y.
 struct PairSearch::Column {
   std::int32_t firstCell;
@@ -76,7 +93,7 @@ struct PairSearch::Scratch {
 PairSearch::PairSearch(const CellGrid& grid, const ImageCodes& codes, const GrainColumns& columns,
                        KernelWidth width)
     : grid_(grid), codes_(codes), columns_(columns), search_(cellSearcher(width)),
-      imaged_(codes.image.size() > 1) {
+      imaged_(codes.image.size() > 1), together_(grid.periodic()[2] ? 1 : cellsTogether) {
   // A finer cell can see one cell more of a coarser level.
   const int beyond = grid.levels().size() > 1 ? 3 : 1;
   for (const CellGrid::Level& level : grid.levels())
@@ -109,7 +126,8 @@ void PairSearch::openColumn(std::size_t home, int x, int y, Scratch& scratch) co
               [](const Column& s, const Column& t) { return s.firstCell < t.firstCell; });
 }
 
-void PairSearch::openCell(std::size_t home, int z, std::int32_t firstGrain, Scratch& scratch) const {
+void PairSearch::openCells(std::size_t home, int lowest, int highest, std::int32_t firstGrain,
+                           Scratch& scratch) const {
   const std::int32_t* start = grid_.start().data();
   const bool periodic = grid_.periodic()[2];
   const std::size_t columns = scratch.columns.size();
@@ -133,7 +151,9 @@ void PairSearch::openCell(std::size_t home, int z, std::int32_t firstGrain, Scra
   for (std::size_t c = 0; c < columns;) {
     const int level = column[c].level;
     const CellGrid::Level& there = grid_.levels()[level];
-    const Window w = window(grid_.levels()[home], there, z, 2, periodic);
+    const CellGrid::Level& here = grid_.levels()[home];
+    const Window w{window(here, there, lowest, 2, periodic).low,
+                   window(here, there, highest, 2, periodic).high};
     if (w.low >= 0 && w.high < there.count[2]) {
       const std::int32_t *const low = start + w.low, *const high = start + w.high + 1;
       for (; c < columns && column[c].level == level; ++c)
@@ -159,8 +179,11 @@ void PairSearch::openCell(std::size_t home, int z, std::int32_t firstGrain, Scra
   scratch.furthest = furthest;
 }
 
-/// Calls visit(scratch, first, last) for the grains of each cell among first .. last - 1.
-template <class Visit> void PairSearch::eachCell(std::int64_t first, std::int64_t last, Visit&& visit) const {
+/// Calls visit(scratch, first, last) for the grains of each few cells, `together` of them one above the
+/// other, among first .. last - 1.
+template <class Visit>
+void PairSearch::eachCells(std::int64_t together, std::int64_t first, std::int64_t last,
+                           Visit&& visit) const {
   const auto& start = grid_.start();
   const std::int64_t cells = static_cast<std::int64_t>(start.size()) - 1;
   Scratch scratch;
@@ -173,15 +196,17 @@ template <class Visit> void PairSearch::eachCell(std::int64_t first, std::int64_
     const std::int64_t column = (cell - level.firstCell) / level.count[2];
     const std::int64_t firstCell = level.firstCell + column * level.count[2];
     bool open = false;
-    for (; cell < firstCell + level.count[2]; ++cell) {
+    for (std::int64_t next; cell < firstCell + level.count[2]; cell = next) {
+      next = std::min(cell + together, firstCell + level.count[2]);
       const std::int64_t begin = std::max<std::int64_t>(first, start[cell]);
-      const std::int64_t end = std::min<std::int64_t>(last, start[cell + 1]);
+      const std::int64_t end = std::min<std::int64_t>(last, start[next]);
       if (begin >= end) continue;
       if (!open)
         openColumn(home, static_cast<int>(column / level.count[1]), static_cast<int>(column % level.count[1]),
                    scratch);
       open = true;
-      openCell(home, static_cast<int>(cell - firstCell), static_cast<std::int32_t>(begin), scratch);
+      openCells(home, static_cast<int>(cell - firstCell), static_cast<int>(next - 1 - firstCell),
+                static_cast<std::int32_t>(begin), scratch);
       visit(scratch, static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
     }
   }
@@ -197,7 +222,7 @@ void PairSearch::rows(std::int64_t first, std::int64_t last, std::int64_t crossi
   task.reach = columns_.reach;
   task.shift = codes_.shift.data();
   task.center = codes_.center();
-  eachCell(first, last, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
+  eachCells(together_, first, last, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
     const std::size_t room =
         static_cast<std::size_t>(found.size + scratch.most * (end - begin)) + CellSearch::writeAhead;
     if (found.partner.size() < room) found.partner.resize(room + room / 4);
@@ -224,8 +249,8 @@ void PairSearch::rows(std::int64_t first, std::int64_t last, std::int64_t crossi
 }
 
 std::int64_t PairSearch::distanceTests() const {
-  std::int64_t tests = 0;
-  eachCell(0, columns_.grains, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
+  std::int64_t tests = 0; // of one cell at a time
+  eachCells(1, 0, columns_.grains, [&](const Scratch& scratch, std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i)
       for (int k = 0; k < scratch.count; ++k) {
         const Stretch& s = scratch.stretches[k];

@@ -1,41 +1,39 @@
 #include "sim/grains/grain_store.h"
 
 #include <algorithm>
-#include <type_traits>
+#include <utility>
 
 namespace sandglass {
 
 namespace {
 
-constexpr std::size_t phantoms = 2;
+constexpr int phantoms = 2;
 constexpr std::int64_t grainsPerPiece = 4096;
+
+template <int quads>
+void copyRecords(const Quad* from, Quad* to, const std::int32_t* order, std::int64_t first,
+                 std::int64_t last) {
+  for (std::int64_t i = first; i < last; ++i)
+    for (int k = 0; k < quads; ++k)
+      to[i * quads + k] = from[std::int64_t{order[i]} * quads + k];
+}
 
 /// Moves values through memory that is there already: asking the system for as much anew takes longer.
 /// `extra` values at the end keep their meaning.
-template <class T, class Allocator>
-void permute(std::vector<T, Allocator>& values, const std::vector<std::int32_t>& order, Parallel& parallel,
-             AlignedVector<Quad>& scratch, std::size_t extra = 0, std::size_t stride = 1) {
-  const std::size_t count = order.size() * stride,
-                    quads = (count * sizeof(T) + sizeof(Quad) - 1) / sizeof(Quad);
+template <class T>
+void permute(std::vector<T>& values, const std::vector<std::int32_t>& order, Parallel& parallel,
+             AlignedVector<Quad>& scratch, std::size_t extra = 0) {
+  const std::size_t quads = (order.size() * sizeof(T) + sizeof(Quad) - 1) / sizeof(Quad);
   if (scratch.size() < quads) scratch.resize(quads);
   T* const moved = reinterpret_cast<T*>(scratch.data());
   const auto n = static_cast<std::int64_t>(order.size());
-  const auto copy = [&](auto strideNow) {
-    parallel.forRange(n, grainsPerPiece, [&, from = values.data()](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-        for (std::size_t k = 0; k < strideNow; ++k)
-          moved[i * strideNow + k] = from[order[i] * strideNow + k];
-    });
-  };
-  if (stride == 3)
-    copy(std::integral_constant<std::size_t, 3>{});
-  else if (stride == 2)
-    copy(std::integral_constant<std::size_t, 2>{});
-  else
-    copy(std::integral_constant<std::size_t, 1>{});
-  values.resize(count + extra * stride);
+  parallel.forRange(n, grainsPerPiece, [&, from = values.data()](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      moved[i] = from[order[i]];
+  });
+  values.resize(order.size() + extra);
   parallel.forRange(n, grainsPerPiece, [&, to = values.data()](std::int64_t first, std::int64_t last) {
-    std::copy(moved + first * stride, moved + last * stride, to + first * stride);
+    std::copy(moved + first, moved + last, to + first);
   });
 }
 
@@ -65,14 +63,18 @@ void GrainStore::keep(bool turningGrains, bool imagedGrains) {
   resize(0);
 }
 
-void GrainStore::placePhantoms() {
+void GrainStore::pointAtRecords() {
   const int stride = quadsPerRecord();
   Quad* first = records_.data();
   place = {first, stride};
   motion = {first + 1, stride};
   if (turning) roll = {first + 2, stride};
+}
+
+void GrainStore::placePhantoms() {
+  pointAtRecords();
   material.resize(size() + phantoms, 0);
-  for (std::size_t k = 0; k < phantoms; ++k) {
+  for (int k = 0; k < phantoms; ++k) {
     const std::size_t i = size() + k;
     place[i] = {k == 0 ? 1e6 : -1e6, 0.0, 0.0, 1e-3};
     motion[i] = {0.0, 0.0, 0.0, 1.0};
@@ -87,9 +89,21 @@ void GrainStore::setRecords(AlignedVector<Quad> records) {
 }
 
 void GrainStore::reorder(const std::vector<std::int32_t>& order, Parallel& parallel,
-                         AlignedVector<Quad>& scratch) {
-  permute(records_, order, parallel, scratch, phantoms, quadsPerRecord());
-  permuteAllowances(listed, order, parallel, scratch);
+                         AlignedVector<Quad>& scratch, const Placed& placed) {
+  const auto n = static_cast<std::int64_t>(order.size());
+  makeRoom(scratch, (n + phantoms) * quadsPerRecord());
+  std::swap(records_, scratch);
+  pointAtRecords();
+  if (placed) listed.resize(order.size());
+  parallel.forRange((n + run - 1) / run, grainsPerPiece / run, [&](std::int64_t from, std::int64_t to) {
+    for (std::int64_t first = from * run; first < std::min(n, to * run); first += run) {
+      const std::int64_t last = std::min(n, first + run);
+      turning ? copyRecords<3>(scratch.data(), records_.data(), order.data(), first, last)
+              : copyRecords<2>(scratch.data(), records_.data(), order.data(), first, last);
+      if (placed) placed(first, last);
+    }
+  });
+  if (!placed) permuteAllowances(listed, order, parallel, scratch);
   permute(id, order, parallel, scratch);
   permute(species, order, parallel, scratch);
   permute(material, order, parallel, scratch, phantoms);

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,11 @@ public:
   bool turning = false; ///< spins are kept
   bool imaged = false;  ///< image counters are kept
 
-  QuadColumn place;         ///< position [m], radius [m]
-  QuadColumn motion;        ///< velocity [m/s], 1/mass [1/kg]
-  QuadColumn roll;          ///< radius times spin [m/s], 1/radius [1/m]; when turning
-  AlignedVector<Quad> listed; ///< position when the list was built, and how far the grain may move from it [m]
+  QuadColumn place;  ///< position [m], radius [m]
+  QuadColumn motion; ///< velocity [m/s], 1/mass [1/kg]
+  QuadColumn roll;   ///< radius times spin [m/s], 1/radius [1/m]; when turning
+  AlignedVector<Quad>
+      listed; ///< position when the list was built, and how far the grain may move from it [m]
   std::vector<std::int64_t> id;
   std::vector<std::int16_t> species;
   std::vector<std::uint8_t> material; ///< two more at the end, for the phantoms
@@ -71,15 +73,23 @@ public:
   /// Takes records as a checkpoint kept them.
   void setRecords(AlignedVector<Quad> records);
 
+  /// Told that the records of the grains first .. last - 1 stand in their new order; while they are in the
+  /// cache, and from several threads at once. Grains come in runs that begin at multiples of `run`.
+  using Placed = std::function<void(std::int64_t first, std::int64_t last)>;
+  static constexpr std::int64_t run = 32;
+
   /// Keeps the grains listed in `order` (storage indices), in that order.
-  /// Of `listed`, only w goes with a grain. `scratch` is memory to work in, made larger if need be; what it
-  /// held is lost.
-  void reorder(const std::vector<std::int32_t>& order, Parallel& parallel, AlignedVector<Quad>& scratch);
+  /// Of `listed`, only w goes with a grain, and nothing at all if `placed` is given, which may write it.
+  /// `scratch` is memory to work in, made larger if need be; what it held is lost, since records change
+  /// places with it.
+  void reorder(const std::vector<std::int32_t>& order, Parallel& parallel, AlignedVector<Quad>& scratch,
+               const Placed& placed = {});
   void resize(std::size_t n);
   std::size_t bytesPerGrain() const;
 
 private:
   void placePhantoms();
+  void pointAtRecords();
 
   AlignedVector<Quad> records_;
 };

@@ -125,21 +125,9 @@ void DemSolver::rebuild(const std::vector<std::uint8_t>& drop) {
   // Fast grains may go further before the list is too old: a stream that falls beside a bed at rest would
   // otherwise have the whole bed listed anew every few steps. The grains of a group share what they may move.
   const double look = stepsOfFlight * dt_, most = 0.25 * meanDiameter_;
-  const auto allow = [&](std::int64_t first, std::int64_t last) {
-    double fastest = 0.0;
-    for (std::int64_t i = first; i < last; ++i)
-      fastest = std::max(fastest, grains_.motion[i].vec().squaredNorm());
-    for (std::int64_t i = first; i < last; ++i)
-      grains_.listed[i].w = 0.5 * skin_ + std::min(look * std::sqrt(fastest), most);
-  };
-  // Groups form when the list sorts the grains; until then each counts alone, for the largest of all.
-  parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
-                     [&](std::int64_t first, std::int64_t last) {
-                       for (std::int64_t i = first; i < last; ++i)
-                         allow(i, i + 1);
-                     });
+  const auto allowance = [&](double speed) { return 0.5 * skin_ + std::min(look * speed, most); };
   if (across_.used()) across_.turnBack(grains_, list_, wallContacts_);
-  list_.build(grains_, laws_.range(), parallel_, drop, allow);
+  list_.build(grains_, laws_.range(), parallel_, drop, allowance);
   if (across_.used()) across_.build(grains_, laws_.range(), list_);
   allowTravel(walls_, dt_, skin_, meanDiameter_, wallRadius_);
   wallContacts_.build(grains_, walls_, laws_.range(), parallel_);

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <set>
 #include <tuple>
+#include <utility>
 
 using namespace sandglass;
 
@@ -315,13 +316,17 @@ TEST_CASE(
   fillAtRandom(store, 3000, domain, 0.004, 0.04, 0.02);
   PairList list(domain, 0, 1, false);
   Parallel parallel(3);
-  list.build(store, 0.001, parallel, {}, [&](std::int64_t first, std::int64_t last) {
-    double most = 0.0;
+  for (std::size_t i = 0; i < store.size(); ++i)
+    store.motion[i].x = std::exchange(store.listed[i].w, 0.0);
+  list.build(store, 0.001, parallel, {}, [](double speed) { return 2.0 * speed; });
+  for (std::int64_t first = 0; first < static_cast<std::int64_t>(store.size()); first += PairList::group) {
+    double fastest = 0.0;
+    const std::int64_t last = std::min<std::int64_t>(first + PairList::group, store.size());
     for (std::int64_t i = first; i < last; ++i)
-      most = std::max(most, store.listed[i].w);
+      fastest = std::max(fastest, store.motion[i].x);
     for (std::int64_t i = first; i < last; ++i)
-      store.listed[i].w = most;
-  });
+      CHECK(store.listed[i].w == Approx(2.0 * fastest));
+  }
   CHECK((keysOf(list, store) == bruteForce(store, domain, 0.001)));
 
   // As a checkpoint does: what is sorted stays as it is.
