@@ -236,32 +236,27 @@ void PairList::writeGroup(const GrainStore& grains, Block& block, std::int64_t f
                                                        block.rows.partner.data() + rows_.first[first];
   std::int32_t* const place = block.rows.place.data() + rows_.first[first];
   auto* const pairs = reinterpret_cast<char*>(now_.pairs.data());
-  std::int32_t furthest = static_cast<std::int32_t>(last - 1);
-  for (std::int64_t k = 0; k < count; ++k) {
-    const std::int32_t i = owner[k], j = partner[k];
-    const bool inside = j < chunkEnd;
-    const std::int32_t p = place[k] + (inside ? firstPair : firstCrossing);
-    place[k] = p;
-    furthest = std::max(furthest, inside ? j : 0);
-    const std::uint64_t pair = static_cast<std::uint32_t>(i) | static_cast<std::uint64_t>(j) << 32;
-    const std::uint64_t byId = std::rotl(pair, id[i] > id[j] ? 32 : 0); // oriented by id
-    std::memcpy(pairs + sizeof byId * static_cast<std::size_t>(p), &byId, sizeof byId);
-  }
-  groupEnd_[g] += firstPair;
-  groupReach_[g] = furthest;
-  groupLast_[g] = furthest / static_cast<std::int32_t>(group);
-  if (!periodic_) return;
-  const std::uint8_t* const code = block.rows.code.data() + rows_.first[first];
+  const std::uint8_t* const code = periodic_ ? block.rows.code.data() + rows_.first[first] : nullptr;
   std::uint8_t* const shiftOf = now_.shiftOf.data();
   const int mirror = now_.codes.mirrored(0), center = now_.codes.center();
-  furthest = static_cast<std::int32_t>(last - 1);
+  auto furthest = static_cast<std::int32_t>(last - 1), reach = furthest;
   for (std::int64_t k = 0; k < count; ++k) {
-    const std::int32_t i = owner[k], j = partner[k];
+    const std::int32_t i = owner[k], j = partner[k], ifInside = -static_cast<std::int32_t>(j < chunkEnd);
+    const std::int32_t p = place[k] + ((firstPair & ifInside) | (firstCrossing & ~ifInside));
+    place[k] = p;
+    furthest = std::max(furthest, j & ifInside);
+    const int ifTurned = -static_cast<int>(id[i] > id[j]); // pairs are oriented by id
+    const std::uint64_t pair = static_cast<std::uint32_t>(i) | static_cast<std::uint64_t>(j) << 32;
+    const std::uint64_t oriented = std::rotl(pair, ifTurned & 32);
+    std::memcpy(pairs + sizeof oriented * static_cast<std::size_t>(p), &oriented, sizeof oriented);
+    if (!code) continue;
     const int seen = code[k]; // turning a pair round mirrors its image
-    shiftOf[place[k]] = static_cast<std::uint8_t>(id[i] > id[j] ? mirror - seen : seen);
-    furthest = std::max(furthest, j < chunkEnd && seen == center ? j : 0);
+    shiftOf[p] = static_cast<std::uint8_t>(seen + ((mirror - 2 * seen) & ifTurned));
+    reach = std::max(reach, j & ifInside & -static_cast<std::int32_t>(seen == center));
   }
-  groupReach_[g] = furthest;
+  groupEnd_[g] += firstPair;
+  groupReach_[g] = code ? reach : furthest;
+  groupLast_[g] = furthest / static_cast<std::int32_t>(group);
 }
 
 /// New histories, where columns and records were, and the old ones to memory.

@@ -12,7 +12,7 @@ namespace {
 constexpr double safety = 1e-9; ///< of a cell's width, against rounding
 /// One above the other: the grains around them still fit into registers nearly as well as those around one.
 /// Not around a periodic box, where cells might be met twice.
-constexpr std::int64_t cellsTogether = 2;
+constexpr std::int64_t cellsTogether = 3;
 
 int floorDivide(int a, int b) {
   return a >= 0 ? a / b : -((b - 1 - a) / b);
