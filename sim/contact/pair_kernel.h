@@ -20,6 +20,10 @@ constexpr std::int32_t ringEntry(std::int64_t place, bool first) {
 /// pair, torques do not.
 alignas(64) inline constexpr double ringSigns[16] = {-1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 
+/// 1/mass [1/kg] of grains that are held fast: small beside that of any other, and far from the smallest
+/// numbers of single precision. Not zero: the reduced mass of two of them must be a number.
+inline constexpr double heldInverseMass = 1e-30;
+
 /// What the loop sees of grains and pairs. Records are `quads` times four doubles: x y z radius, velocity and
 /// 1/mass, radius times spin and 1/radius (GrainStore). Pairs, histories, outputs, slots: PairList.
 struct ParticleView {
@@ -81,10 +85,11 @@ struct Kernel {
                 bool keepHistory, double* out);
   /// Sums what the places of `count` grains from `first` hold in a chunk's ring of outputs.
   void (*sum)(const ParticleView&, std::int64_t first, int count, const double* ring, GroupSums&);
-  /// Kick and drift of a group: v += dt (f/m + g), x += dt v; `roll` by 5/2 dt/m (t + couple/radius).
+  /// Kick and drift of a group: v += dt (f/m + g), x += dt v; `roll` by 5/2 dt/m (t + couple/radius). Grains
+  /// that are held fast go on as they are. Mixed precision: makes the mixed records anew, too.
   void (*move)(const ParticleView&, std::int64_t first, int count, const GroupSums&, double dt,
                const double* gravity, double speedLimit, Speeds&);
-  /// Makes the mixed records of `count` grains from `first` anew; null in double precision.
+  /// Makes the mixed records of `count` grains from `first`; null in double precision.
   void (*narrow)(const ParticleView&, std::int64_t first, int count) = nullptr;
 };
 

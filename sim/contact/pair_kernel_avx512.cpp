@@ -2,7 +2,7 @@
 // time, instead of gathering single numbers.
 
 #include "sim/contact/arithmetic_avx512.h"
-#include "sim/contact/pair_kernel_move.h"
+#include "sim/contact/pair_kernel_move_avx512.h"
 #include "sim/contact/pair_kernel_shared.h"
 #include "sim/contact/pair_load_avx512.h"
 
@@ -137,42 +137,16 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
     sums<3>(v, first, count, ring, s);
 }
 
-/// As move(), velocity and roll of a record in one register.
 template <bool couples>
-void moveTurning(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
-                 const double* gravity, double speedLimit, Speeds& speeds) {
-  const __m512d share = _mm512_set_pd(0, 2.5, 2.5, 2.5, 0, 1, 1, 1);
-  const __m512d pull = _mm512_set_pd(0, 0, 0, 0, 0, dt * gravity[2], dt * gravity[1], dt * gravity[0]);
-  const __m512d size = _mm512_castsi512_pd(_mm512_set1_epi64(static_cast<std::int64_t>(~(1ull << 63))));
-  const __m256d step = _mm256_set_pd(0, dt, dt, dt), limit = _mm256_set1_pd(speedLimit);
-  const __m512d time = _mm512_set1_pd(dt);
-  __m256d most = _mm256_set_pd(0, speeds.z, speeds.y, speeds.x);
-  __mmask8 fine = 7;
-  double* r = v.records + first * 12;
-  for (int i = 0; i < count; ++i, r += 12) {
-    const __m512d kick = time * _mm512_set1_pd(r[7]) * share;
-    const __m512d record = _mm512_loadu_pd(r + 4);
-    __m512d force = _mm512_load_pd(s.at[i]); // and torque
-    if constexpr (couples) {
-      const __m512d couple = _mm512_broadcast_f64x4(_mm256_load_pd(s.at[i] + 8));
-      force = _mm512_mask_add_pd(force, 0x70, force, couple * _mm512_permutex_pd(record, 0xff));
-    }
-    __m512d change = kick * force;
-    change = _mm512_mask_add_pd(change, 7, change, pull);
-    const __m512d motion = record + change;
-    _mm512_storeu_pd(r + 4, motion);
-    const __m256d velocity = _mm512_castpd512_pd256(motion);
-    _mm256_store_pd(r, _mm256_add_pd(_mm256_load_pd(r), _mm256_mul_pd(step, velocity)));
-    const __m256d speed = _mm256_and_pd(velocity, _mm512_castpd512_pd256(size));
-    most = _mm256_mask_max_pd(most, 7, speed, most);
-    fine = _mm256_mask_cmp_pd_mask(fine, speed, limit, _CMP_LT_OQ);
-  }
-  tell(most, fine == 7, speeds);
+void moveWhole(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+               const double* gravity, double speedLimit, Speeds& speeds) {
+  moveTurning<couples>(v, first, count, s, dt, gravity, speedLimit, speeds,
+                       [](std::int64_t, __m256d, __m512d) {});
 }
 
 void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
               const double* gravity, double speedLimit, Speeds& speeds) {
-  const auto how = v.quads != 3 ? move : v.outputQuads == 2 ? moveTurning<false> : moveTurning<true>;
+  const auto how = v.quads != 3 ? move : v.outputQuads == 2 ? moveWhole<false> : moveWhole<true>;
   how(v, first, count, s, dt, gravity, speedLimit, speeds);
 }
 

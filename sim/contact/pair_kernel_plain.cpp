@@ -90,8 +90,9 @@ void move(const ParticleView& v, std::int64_t first, int count, const GroupSums&
     double* r = v.records + (first + i) * 4 * v.quads;
     const double* f = s.at[i];
     const double kick = dt * r[7];
+    const bool free = r[7] > heldInverseMass;
     for (int k = 0; k < 3; ++k) {
-      r[4 + k] = r[4 + k] + (kick * f[k] + dt * gravity[k]);
+      r[4 + k] = r[4 + k] + (free ? kick * f[k] + dt * gravity[k] : 0.0);
       r[k] = r[k] + dt * r[4 + k];
       const double size = r[4 + k] < 0.0 ? -r[4 + k] : r[4 + k];
       most[k] = size > most[k] ? size : most[k];
@@ -101,7 +102,7 @@ void move(const ParticleView& v, std::int64_t first, int count, const GroupSums&
     const double turn = 2.5 * kick;
     for (int k = 0; k < 3; ++k) {
       const double torque = v.outputQuads > 2 ? f[4 + k] + f[8 + k] * r[11] : f[4 + k];
-      r[8 + k] = r[8 + k] + turn * torque;
+      r[8 + k] = r[8 + k] + (free ? turn * torque : 0.0);
     }
   }
   speeds.x = most[0];

@@ -147,6 +147,7 @@ FusedLoop mixedLoopAvx2(const FusedLaws& laws) {
 Kernel mixedKernelAvx2() {
   Kernel kernel = avx2Kernel();
   kernel.sum = sum;
+  kernel.move = moveAndNarrow;
   kernel.narrow = narrow;
   return kernel;
 }

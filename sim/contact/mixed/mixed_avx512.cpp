@@ -4,6 +4,7 @@
 #include "sim/contact/fused/fused_pick.h"
 #include "sim/contact/mixed/mixed_narrow.h"
 #include "sim/contact/mixed/mixed_reach.h"
+#include "sim/contact/pair_kernel_move_avx512.h"
 
 namespace sandglass {
 
@@ -192,6 +193,17 @@ void sum(const ParticleView& v, std::int64_t first, int count, const double* rin
   v.outputQuads > 1 ? sums<true>(v, first, count, ring, s) : sums<false>(v, first, count, ring, s);
 }
 
+void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+              const double* gravity, double speedLimit, Speeds& speeds) {
+  if (v.quads < 3) return moveAndNarrow(v, first, count, s, dt, gravity, speedLimit, speeds);
+  moveTurning<false>(v, first, count, s, dt, gravity, speedLimit, speeds,
+                     [&v](std::int64_t i, __m256d place, __m512d motion) {
+                       std::int32_t* to = v.mixed + i * 12;
+                       narrowPlace(v, place, to);
+                       _mm256_storeu_ps(reinterpret_cast<float*>(to + 4), _mm512_cvtpd_ps(motion));
+                     });
+}
+
 } // namespace
 
 FusedLoop mixedLoopAvx512(const FusedLaws& laws, bool fast) {
@@ -202,6 +214,7 @@ FusedLoop mixedLoopAvx512(const FusedLaws& laws, bool fast) {
 Kernel mixedKernelAvx512() {
   Kernel kernel = avx512Kernel();
   kernel.sum = sum;
+  kernel.move = moveBoth;
   kernel.narrow = narrow;
   return kernel;
 }

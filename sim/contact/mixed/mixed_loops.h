@@ -14,8 +14,6 @@ constexpr double fixedPointBias = 6755399441055744.0;
 inline std::int32_t fixedPoint(double units) {
   return static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(units + fixedPointBias));
 }
-/// What single precision takes for the 1/mass of grains that nothing moves, so that quotients stay finite.
-constexpr float leastInverseMass = 1e-30F;
 
 /// Null where the combination has no loop.
 FusedLoop mixedLoopPlain(const FusedLaws& laws);

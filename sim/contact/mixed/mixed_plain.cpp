@@ -81,8 +81,13 @@ void narrow(const ParticleView& v, std::int64_t first, int count) {
       to[k] = fixedPoint(from[k] * v.perUnit);
     for (int k = 4; k < 4 * v.quads; ++k)
       to[k] = std::bit_cast<std::int32_t>(static_cast<float>(from[k]));
-    to[7] = std::bit_cast<std::int32_t>(std::max(static_cast<float>(from[7]), leastInverseMass));
   }
+}
+
+void moveAndNarrow(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+                   const double* gravity, double speedLimit, Speeds& speeds) {
+  plainKernel().move(v, first, count, s, dt, gravity, speedLimit, speeds);
+  narrow(v, first, count);
 }
 
 } // namespace
@@ -94,6 +99,7 @@ FusedLoop mixedLoopPlain(const FusedLaws& laws) {
 Kernel mixedKernelPlain() {
   Kernel kernel = plainKernel();
   kernel.sum = sum;
+  kernel.move = moveAndNarrow;
   kernel.narrow = narrow;
   return kernel;
 }

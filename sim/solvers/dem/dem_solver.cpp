@@ -94,7 +94,7 @@ void DemSolver::add(const std::vector<GrainSeed>& seeds) {
                         scene_.material(species.material).density;
     grains_.place[i] = {s.position.x(), s.position.y(), s.position.z(), s.radius};
     grains_.motion[i] = {s.velocity.x(), s.velocity.y(), s.velocity.z(),
-                         frozen_.holds(s.species) ? FrozenGrains::inverseMass : 1.0 / mass};
+                         frozen_.holds(s.species) ? heldInverseMass : 1.0 / mass};
     if (grains_.turning)
       grains_.roll[i] = {s.radius * s.spin.x(), s.radius * s.spin.y(), s.radius * s.spin.z(), 1.0 / s.radius};
     grains_.id[i] = s.id;

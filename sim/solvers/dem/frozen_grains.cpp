@@ -1,7 +1,6 @@
 #include "sim/solvers/dem/frozen_grains.h"
 
 #include "sim/base/error.h"
-#include "sim/contact/pair_list.h"
 #include "sim/solvers/dem/particle_loop.h"
 
 namespace sandglass {
@@ -16,15 +15,12 @@ FrozenGrains::FrozenGrains(const Scene& scene) {
 void FrozenGrains::capture(const GrainStore& grains) {
   held_.clear();
   moving_.clear();
-  groupFirst_.clear();
   for (std::size_t i = 0; any_ && i < grains.size(); ++i) {
-    if (i % PairList::group == 0) groupFirst_.push_back(held_.size());
     if (!frozen_[grains.species[i]]) continue;
     held_.push_back({static_cast<std::int32_t>(i), grains.place[i], grains.motion[i],
                      grains.turning ? grains.roll[i] : Quad{}});
     if (held_.back().moves()) moving_.push_back(held_.size() - 1);
   }
-  groupFirst_.push_back(held_.size());
 }
 
 std::vector<std::int32_t> FrozenGrains::moving() const {
@@ -34,9 +30,8 @@ std::vector<std::int32_t> FrozenGrains::moving() const {
   return grains;
 }
 
-void FrozenGrains::hold(GrainStore& grains, std::size_t first, std::size_t last) const {
-  for (std::size_t k = first; k < last; ++k) {
-    const Held& h = held_[k];
+void FrozenGrains::hold(GrainStore& grains) const {
+  for (const Held& h : held_) {
     grains.place[h.grain] = h.place;
     grains.motion[h.grain] = h.motion;
     if (grains.turning) grains.roll[h.grain] = h.roll;

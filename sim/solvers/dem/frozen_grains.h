@@ -18,10 +18,6 @@ class ParticleLoop;
 
 class FrozenGrains {
 public:
-  /// [1/kg] Small beside that of any grain, and far from the smallest numbers of single precision. Not zero:
-  /// the reduced mass of two frozen grains must be a number.
-  static constexpr double inverseMass = 1e-30;
-
   explicit FrozenGrains(const Scene& scene);
 
   bool any() const { return any_; }
@@ -33,11 +29,7 @@ public:
   /// Storage indices of those that move or turn, whose forces tally() asks the loop for.
   std::vector<std::int32_t> moving() const;
   /// Gives them back what capture() found, at the places where advance() has brought them.
-  void hold(GrainStore& grains) const { hold(grains, 0, held_.size()); }
-  /// Those of one group of grains, while the particle loop has them at hand.
-  void holdGroup(GrainStore& grains, std::int64_t group) const {
-    hold(grains, groupFirst_[group], groupFirst_[group + 1]);
-  }
+  void hold(GrainStore& grains) const;
   /// Before a step of the particle loop: where it will leave them.
   void advance(double dt);
   /// After it: adds up the work of their contacts. `worked`: the time since the step before [s]; leap-frog
@@ -57,13 +49,11 @@ private:
     Quad place, motion, roll;
     bool moves() const { return motion.vec() != Vec3::Zero() || roll.vec() != Vec3::Zero(); }
   };
-  void hold(GrainStore& grains, std::size_t first, std::size_t last) const;
 
   std::vector<bool> frozen_; ///< by species
   bool any_ = false;
-  std::vector<Held> held_;              ///< in storage order
-  std::vector<std::size_t> moving_;     ///< which of them move or turn
-  std::vector<std::size_t> groupFirst_; ///< of each group of PairList::group grains, and the end
+  std::vector<Held> held_;          ///< in storage order
+  std::vector<std::size_t> moving_; ///< which of them move or turn
   double work_ = 0, power_ = 0;
 };
 

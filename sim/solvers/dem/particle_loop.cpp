@@ -114,8 +114,6 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
   crossing(dt, false);
   std::mutex merge;
   std::atomic<bool> late{false}, bad{false};
-  // What the loop does to the velocities of those that are held at theirs.
-  const double unheld = watched_.empty() ? 0.0 : dt * gravity.norm();
   const Kernel& kernel = pairs_.kernel();
   parallel_.forRange(list_.chunks(), 1, [&](std::int64_t firstChunk, std::int64_t lastChunk) {
     PairForces::Scratch& scratch = scratchOfThread();
@@ -133,10 +131,8 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
         Speeds speeds;
         kernel.move(pairs_.view(), g * group, static_cast<int>(last - g * group), sums, dt, gravity.data(),
                     speedLimit, speeds);
-        if (frozen_.any()) frozen_.holdGroup(grains_, g);
-        if (kernel.narrow) kernel.narrow(pairs_.view(), g * group, static_cast<int>(last - g * group));
         const double speed = std::sqrt(speeds.x * speeds.x + speeds.y * speeds.y + speeds.z * speeds.z);
-        if (travel_.add(g, dt * (speed + unheld))) tired = true;
+        if (travel_.add(g, dt * speed)) tired = true;
         wrong = wrong || speeds.bad;
       });
     }
