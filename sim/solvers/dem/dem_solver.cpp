@@ -48,7 +48,7 @@ DemSolver::DemSolver(const Scene& scene, const SolverOptions& options,
       parallel_(options.threads),
       list_(scene.domain, laws_.historySize(), laws_.outputStride(), laws_.hasEvents(), laws_.mixed()),
       pairForces_(laws_), wallContacts_(laws_), across_(laws_, scene.sector()), frozen_(scene),
-      loop_(grains_, list_, pairForces_, wallContacts_, walls_, across_, fields_, frozen_, parallel_),
+      loop_(grains_, list_, pairForces_, wallContacts_, walls_, across_, fields_, parallel_),
       gravity_(scene.gravity), lives_(scene) {
   if (across_.used() && laws_.hasEvents())
     throw InputError("a wedge cannot be simulated with laws that move quantities from grain to grain across "

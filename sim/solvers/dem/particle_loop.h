@@ -12,7 +12,6 @@
 #include "sim/contact/sector_contacts.h"
 #include "sim/contact/wall_contacts.h"
 #include "sim/fields/field_stack.h"
-#include "sim/solvers/dem/frozen_grains.h"
 #include "sim/solvers/dem/group_travel.h"
 
 #include <array>
@@ -24,9 +23,9 @@ class ParticleLoop {
 public:
   ParticleLoop(GrainStore& grains, PairList& list, PairForces& pairs, WallContacts& atWalls,
                const std::vector<SolverWall>& walls, const SectorContacts& across, FieldStack& fields,
-               const FrozenGrains& frozen, Parallel& parallel)
+               Parallel& parallel)
       : grains_(grains), list_(list), pairs_(pairs), atWalls_(atWalls), walls_(walls), across_(across),
-        fields_(fields), frozen_(frozen), parallel_(parallel) {}
+        fields_(fields), parallel_(parallel) {}
 
   /// After a rebuild.
   void bind();
@@ -69,7 +68,6 @@ private:
   const std::vector<SolverWall>& walls_;
   const SectorContacts& across_;
   FieldStack& fields_;
-  const FrozenGrains& frozen_;
   Parallel& parallel_;
   GroupTravel travel_;
   std::vector<std::int32_t> watched_;
