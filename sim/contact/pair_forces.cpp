@@ -33,7 +33,6 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
   view_.quiet = list.quiet();
   view_.outputQuads = laws_.outputQuads();
   view_.outputStride = laws_.outputStride();
-  view_.places = list.places();
   view_.readsSpin = laws_.readsSpin();
   view_.radiusArm = laws_.fullRadiusArm();
   view_.ownTorque = laws_.ownTorque();
@@ -109,31 +108,41 @@ void PairForces::fillBlock(std::int64_t first, int count, double dt, ContactBloc
   kernel_.fill(view_, first, count, b, columns);
 }
 
-void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, double* out,
-                          std::int64_t ahead) const {
+void PairForces::evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch,
+                          double* out) const {
   constexpr int capacity = ContactBlock::capacity;
-  const char* records = nullptr;
-  if (ahead >= 0)
-    records = view_.mixed ? reinterpret_cast<const char*>(view_.mixed + ahead * 4 * view_.quads)
-                          : reinterpret_cast<const char*>(view_.records + ahead * 4 * view_.quads);
-  for (std::int64_t first = range.begin; first < range.end;
-       first += capacity, out += capacity * view_.outputStride) {
-    const int count = static_cast<int>(std::min<std::int64_t>(capacity, range.end - first));
-    if (fusedLoop_) {
-      if (fusedLoop_(view_, fused_, first, first + count, dt, keepHistory, out, records) <= overlapLength_)
-        continue;
-      fillBlock(first, count, dt, scratch.block, scratch.columns); // grains have not moved: who was it?
-      reportOverlaps(first, scratch);
-      continue;
-    }
-    // As the loops of their own do: the records that as many pairs will need, three a grain.
-    for (int k = 0; records && k < count * 4 * view_.quads / 3; k += 8)
-      __builtin_prefetch(records + k * sizeof(double), 1, 2);
-    fillBlock(first, count, dt, scratch.block, scratch.columns);
-    applyLaws(first, scratch);
+  for (; range.begin < range.end; range.begin += capacity, out += capacity * view_.outputStride)
+    evaluateBlock({range.begin, std::min(range.begin + capacity, range.end)}, dt, keepHistory, scratch, out,
+                  {}, nullptr);
+}
+
+void PairForces::addBlock(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, SumRing sums,
+                          std::int64_t ahead) const {
+  const std::int64_t record = ahead * 4 * view_.quads;
+  evaluateBlock(range, dt, keepHistory, scratch, scratch.outputs, sums,
+                view_.mixed ? reinterpret_cast<const char*>(view_.mixed + record)
+                            : reinterpret_cast<const char*>(view_.records + record));
+}
+
+void PairForces::evaluateBlock(PairList::Range range, double dt, bool keepHistory, Scratch& scratch,
+                               double* out, SumRing sums, const char* ahead) const {
+  const std::int64_t first = range.begin;
+  const int count = static_cast<int>(range.end - first);
+  if (fusedLoop_) {
+    if (fusedLoop_(view_, fused_, first, range.end, dt, keepHistory, out, sums, ahead) <= overlapLength_)
+      return;
+    fillBlock(first, count, dt, scratch.block, scratch.columns); // grains have not moved: who was it?
     reportOverlaps(first, scratch);
-    kernel_.write(view_, first, scratch.block, scratch.columns, keepHistory, out);
+    return;
   }
+  // As the loops of their own do: the records that as many pairs will need, three a grain.
+  for (int k = 0; ahead && k < count * 4 * view_.quads / 3; k += 8)
+    __builtin_prefetch(ahead + k * sizeof(double), 1, 2);
+  fillBlock(first, count, dt, scratch.block, scratch.columns);
+  applyLaws(first, scratch);
+  reportOverlaps(first, scratch);
+  kernel_.write(view_, first, scratch.block, scratch.columns, keepHistory, out);
+  if (sums.rows) kernel_.add(view_, first, count, out, sums);
 }
 
 void PairForces::applyLaws(std::int64_t first, Scratch& scratch) const {

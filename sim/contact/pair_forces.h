@@ -45,7 +45,9 @@ public:
     PairColumns columns;
     std::vector<PairEvent> events;
     DeepestOverlap deepest;
-    AlignedVector<double> ring; ///< outputs of a chunk: PairList::window
+    alignas(64) double outputs[12 * ContactBlock::capacity];
+    AlignedVector<double> sums; ///< rows of a SumRing; zeros between sweeps
+    bool swept = true;          ///< the last sweep came to its end
   };
 
   explicit PairForces(const LawStack& laws) : laws_(laws) {}
@@ -67,10 +69,12 @@ public:
   std::size_t bytes() const { return mixed_.bytes() + placeOfPair_.size(); }
 
   /// Evaluates the pairs of a range that starts and ends at multiples of PairList::lane: outputs, which begin
-  /// at `out`, and, unless `keepHistory`, histories. `ahead`, if not below 0: the grain whose record and
-  /// following ones will be read soon, for the first time.
-  void evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, double* out,
-                std::int64_t ahead = -1) const;
+  /// at `out`, and, unless `keepHistory`, histories.
+  void evaluate(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, double* out) const;
+  /// The same for no more than a block of them, whose outputs are added to `sums`. `ahead`: the grain whose
+  /// record and following ones will be read soon, for the first time.
+  void addBlock(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, SumRing sums,
+                std::int64_t ahead) const;
 
   /// Energy stored in all contacts [J], with histories as the step of length dt would leave them.
   double storedEnergy(double dt) const;
@@ -82,6 +86,8 @@ public:
 private:
   void pickLoop(int material);
   bool bindTables();
+  void evaluateBlock(PairList::Range range, double dt, bool keepHistory, Scratch& scratch, double* out,
+                     SumRing sums, const char* ahead) const;
   void fillBlock(std::int64_t first, int count, double dt, ContactBlock& b, PairColumns& columns) const;
   void applyLaws(std::int64_t first, Scratch& scratch) const;
   void leaveRange(std::int64_t first, const double (*before)[ContactBlock::capacity], Scratch& scratch) const;

@@ -1,8 +1,8 @@
 #pragma once
 // The steps of the particle loop that handle memory: from grain records to a block of contacts, from a block
-// to outputs, from outputs to the sums of a group of grains, and on to their new records. One function each
-// and for each width; all widths give the same bits. Plain data alone crosses this interface, since the files
-// behind it are compiled for different processors.
+// to outputs, from outputs to sums over the contacts of grains, and on to their new records. One function
+// each and for each width; all widths give the same bits. Plain data alone crosses this interface, since the
+// files behind it are compiled for different processors.
 
 #include "sim/contact/contact_block.h"
 #include "sim/contact/kernel_width.h"
@@ -11,21 +11,12 @@
 
 namespace sandglass {
 
-/// Where in the ring an output stands and whether the grain is the pair's first: times the stride, and
-/// without its last four bits, twice an offset in bytes; those bits are an index into ringSigns.
-constexpr std::int32_t ringEntry(std::int64_t place, bool first) {
-  return static_cast<std::int32_t>(place << 4 | (first ? 8 : 0));
-}
-/// Eight factors from the index on, in one line of the cache: forces change sign for the second grain of a
-/// pair, torques do not.
-alignas(64) inline constexpr double ringSigns[16] = {-1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-
 /// 1/mass [1/kg] of grains that are held fast: small beside that of any other, and far from the smallest
 /// numbers of single precision. Not zero: the reduced mass of two of them must be a number.
 inline constexpr double heldInverseMass = 1e-30;
 
 /// What the loop sees of grains and pairs. Records are `quads` times four doubles: x y z radius, velocity and
-/// 1/mass, radius times spin and 1/radius (GrainStore). Pairs, histories, outputs, slots: PairList.
+/// 1/mass, radius times spin and 1/radius (GrainStore). Pairs and histories: PairList.
 struct ParticleView {
   /// Pairs whose histories stand side by side: number k of pair p is history[p / lane * lane * historySize +
   /// k * lane + p % lane].
@@ -45,7 +36,6 @@ struct ParticleView {
   std::uint8_t* quiet = nullptr; ///< of pairs evaluated together, p / lanes: 1 if their histories are zeros
   int outputQuads = 1;           ///< force; with friction also torque over radius; with rolling also a couple
   int outputStride = 4; ///< doubles a pair: four a quad, or two where quads are of floats (mixed precision)
-  const std::int32_t* places = nullptr; ///< eight a grain, as ringEntry() packs them
   bool readsSpin = false, radiusArm = false;
   bool ownTorque = false; ///< a law's couple over the radius is the torque on either grain; spins are added
   bool sumsOverlaps = false; ///< last number of the torque's quad: the overlap [m], 0 for a gap
@@ -65,9 +55,20 @@ template <class Real> struct PairColumnsOf {
 };
 using PairColumns = PairColumnsOf<double>;
 
+/// Sums over the contacts of grains, a row for each: force, torque over radius, couple, four doubles each, as
+/// many as a pair has outputs (ParticleView::outputQuads).
+struct SumRing {
+  double* rows = nullptr;
+  std::int64_t mask = 0; ///< grain i has row i & mask
+  double* row(std::int64_t grain, int quads) const { return rows + (grain & mask) * (4 * quads); }
+};
+
+/// The rows of a group of grains.
 struct GroupSums {
   static constexpr int capacity = 32;
-  alignas(64) double at[capacity][16]; ///< force, torque over radius, couple: four doubles each; a gap
+  double* rows = nullptr;
+  int stride = 4;
+  double* at(std::int64_t k) const { return rows + k * stride; }
 };
 
 /// Greatest components met, for lists and for the watch on speeds.
@@ -83,11 +84,12 @@ struct Kernel {
   /// Writes histories (unless `keepHistory`) and outputs, which begin at `out`.
   void (*write)(const ParticleView&, std::int64_t first, const ContactBlock&, const PairColumns&,
                 bool keepHistory, double* out);
-  /// Sums what the places of `count` grains from `first` hold in a chunk's ring of outputs.
-  void (*sum)(const ParticleView&, std::int64_t first, int count, const double* ring, GroupSums&);
+  /// Adds the outputs of `count` pairs from `first`, which begin at `out`, to the sums of their grains.
+  void (*add)(const ParticleView&, std::int64_t first, int count, const double* out, SumRing);
   /// Kick and drift of a group: v += dt (f/m + g), x += dt v; `roll` by 5/2 dt/m (t + couple/radius). Grains
-  /// that are held fast go on as they are. Mixed precision: makes the mixed records anew, too.
-  void (*move)(const ParticleView&, std::int64_t first, int count, const GroupSums&, double dt,
+  /// that are held fast go on as they are. Leaves zeros in the sums. Mixed precision: makes the mixed records
+  /// anew, too.
+  void (*move)(const ParticleView&, std::int64_t first, int count, GroupSums, double dt,
                const double* gravity, double speedLimit, Speeds&);
   /// Makes the mixed records of `count` grains from `first`; null in double precision.
   void (*narrow)(const ParticleView&, std::int64_t first, int count) = nullptr;

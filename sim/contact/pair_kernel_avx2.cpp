@@ -4,6 +4,7 @@
 #include "sim/contact/pair_kernel_move.h"
 #include "sim/contact/pair_kernel_shared.h"
 #include "sim/contact/pair_load_avx2.h"
+#include "sim/contact/pair_sums.h"
 
 namespace sandglass {
 
@@ -66,31 +67,10 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
   }
 }
 
-void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  const std::int64_t stride = 4 * v.outputQuads;
-  const std::int32_t* slot = v.places + first * 8;
-  for (int i = 0; i < count; ++i, slot += 8) {
-    __m256d force = _mm256_setzero_pd(), torque = force, couple = force;
-    for (int k = 0; k < 8; ++k) {
-      const std::int64_t entry = slot[k];
-      const double* out = ring + (entry >> 4) * stride;
-      const __m256d sign = _mm256_load_pd(ringSigns + (entry & 15));
-      force = _mm256_fmadd_pd(sign, _mm256_load_pd(out), force);
-      if (stride < 8) continue;
-      torque = _mm256_add_pd(torque, _mm256_load_pd(out + 4));
-      if (stride < 12) continue;
-      couple = _mm256_fmadd_pd(sign, _mm256_load_pd(out + 8), couple);
-    }
-    _mm256_store_pd(s.at[i], force);
-    _mm256_store_pd(s.at[i] + 4, torque);
-    _mm256_store_pd(s.at[i] + 8, couple);
-  }
-}
-
 } // namespace
 
 const Kernel& avx2Kernel() {
-  static const Kernel kernel{fill, write, sum, move};
+  static const Kernel kernel{fill, write, add, move};
   return kernel;
 }
 

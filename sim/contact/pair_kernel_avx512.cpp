@@ -5,6 +5,7 @@
 #include "sim/contact/pair_kernel_move_avx512.h"
 #include "sim/contact/pair_kernel_shared.h"
 #include "sim/contact/pair_load_avx512.h"
+#include "sim/contact/pair_sums.h"
 
 namespace sandglass {
 
@@ -104,47 +105,14 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
     writeOutputs<3>(v, b, p, output);
 }
 
-template <int quads>
-inline void sums(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  const std::int32_t* slot = v.places + first * 8;
-  const char* outputs = reinterpret_cast<const char*>(ring);
-  for (int i = 0; i < count; ++i, slot += 8) {
-    __m512d both = _mm512_setzero_pd(); // force and torque
-    __m256d force = _mm256_setzero_pd(), couple = force;
-    for (int k = 0; k < 8; ++k) {
-      const auto entry = static_cast<std::uint32_t>(slot[k]);
-      const auto* out = reinterpret_cast<const double*>(outputs + std::uint64_t{entry & ~15u} * (2 * quads));
-      const double* sign = ringSigns + (entry & 15u);
-      if constexpr (quads == 1)
-        force = _mm256_fmadd_pd(_mm256_load_pd(sign), _mm256_load_pd(out), force);
-      else
-        both = _mm512_fmadd_pd(_mm512_load_pd(sign), _mm512_loadu_pd(out), both);
-      if constexpr (quads == 3)
-        couple = _mm256_fmadd_pd(_mm256_load_pd(sign), _mm256_load_pd(out + 8), couple);
-    }
-    if constexpr (quads == 1) both = _mm512_zextpd256_pd512(force);
-    _mm512_storeu_pd(s.at[i], both);
-    if constexpr (quads == 3) _mm256_store_pd(s.at[i] + 8, couple);
-  }
-}
-
-void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  if (v.outputQuads == 1)
-    sums<1>(v, first, count, ring, s);
-  else if (v.outputQuads == 2)
-    sums<2>(v, first, count, ring, s);
-  else
-    sums<3>(v, first, count, ring, s);
-}
-
 template <bool couples>
-void moveWhole(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+void moveWhole(const ParticleView& v, std::int64_t first, int count, GroupSums s, double dt,
                const double* gravity, double speedLimit, Speeds& speeds) {
   moveTurning<couples>(v, first, count, s, dt, gravity, speedLimit, speeds,
                        [](std::int64_t, __m256d, __m512d) {});
 }
 
-void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+void moveBoth(const ParticleView& v, std::int64_t first, int count, GroupSums s, double dt,
               const double* gravity, double speedLimit, Speeds& speeds) {
   const auto how = v.quads != 3 ? move : v.outputQuads == 2 ? moveWhole<false> : moveWhole<true>;
   how(v, first, count, s, dt, gravity, speedLimit, speeds);
@@ -153,7 +121,7 @@ void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupS
 } // namespace
 
 const Kernel& avx512Kernel() {
-  static const Kernel kernel{fill, write, sum, moveBoth};
+  static const Kernel kernel{fill, write, add, moveBoth};
   return kernel;
 }
 

@@ -19,10 +19,17 @@ inline void tell(__m256d most, bool fine, Speeds& speeds) {
   speeds.bad = speeds.bad || !fine;
 }
 
+/// A quad of sums, which is left zero.
+inline __m256d take(double* quad) {
+  const __m256d all = _mm256_load_pd(quad);
+  _mm256_store_pd(quad, _mm256_setzero_pd());
+  return all;
+}
+
 /// Calls done(grain, place, motion, roll) with what each has come to; roll is nothing where grains do not
 /// turn.
 template <class Done>
-inline void moveQuads(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+inline void moveQuads(const ParticleView& v, std::int64_t first, int count, GroupSums s, double dt,
                       const double* gravity, double speedLimit, Speeds& speeds, Done&& done) {
   const __m256d step = _mm256_set_pd(0, dt, dt, dt);
   // Zero in the last lane keeps radius, 1/mass and 1/radius as they are.
@@ -36,11 +43,11 @@ inline void moveQuads(const ParticleView& v, std::int64_t first, int count, cons
   const bool turning = v.quads > 2, couples = v.outputQuads > 2;
   for (int i = 0; i < count; ++i) {
     double* r = v.records + (first + i) * 4 * v.quads;
-    const double* f = s.at[i];
+    double* f = s.at(i);
     __m256d motion = _mm256_load_pd(r + 4);
     const __m256d inverseMass = _mm256_permute4x64_pd(motion, 0xff), kick = _mm256_mul_pd(step, inverseMass);
     const __m256d free = _mm256_and_pd(xyz, _mm256_cmp_pd(inverseMass, held, _CMP_GT_OQ));
-    const __m256d change = _mm256_add_pd(_mm256_mul_pd(kick, _mm256_load_pd(f)), pull);
+    const __m256d change = _mm256_add_pd(_mm256_mul_pd(kick, take(f)), pull);
     motion = _mm256_add_pd(motion, _mm256_and_pd(change, free));
     _mm256_store_pd(r + 4, motion);
     const __m256d place = _mm256_add_pd(_mm256_load_pd(r), _mm256_mul_pd(step, motion));
@@ -49,13 +56,14 @@ inline void moveQuads(const ParticleView& v, std::int64_t first, int count, cons
     most = _mm256_max_pd(size, most);
     fine = _mm256_and_pd(fine, _mm256_cmp_pd(size, limit, _CMP_LT_OQ));
     if (!turning) {
+      if (s.stride > 4) take(f + 4); // sums of overlaps
       done(first + i, place, motion, _mm256_setzero_pd());
       continue;
     }
     __m256d roll = _mm256_load_pd(r + 8);
-    __m256d torque = _mm256_load_pd(f + 4);
+    __m256d torque = take(f + 4);
     if (couples)
-      torque = _mm256_add_pd(torque, _mm256_mul_pd(_mm256_load_pd(f + 8), _mm256_permute4x64_pd(roll, 0xff)));
+      torque = _mm256_add_pd(torque, _mm256_mul_pd(take(f + 8), _mm256_permute4x64_pd(roll, 0xff)));
     const __m256d turn = _mm256_mul_pd(_mm256_mul_pd(_mm256_set1_pd(2.5), kick), torque);
     roll = _mm256_add_pd(roll, _mm256_and_pd(turn, free));
     _mm256_store_pd(r + 8, roll);
@@ -64,7 +72,7 @@ inline void moveQuads(const ParticleView& v, std::int64_t first, int count, cons
   tell(most, _mm256_movemask_pd(fine) == 15, speeds);
 }
 
-inline void move(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+inline void move(const ParticleView& v, std::int64_t first, int count, GroupSums s, double dt,
                  const double* gravity, double speedLimit, Speeds& speeds) {
   moveQuads(v, first, count, s, dt, gravity, speedLimit, speeds,
             [](std::int64_t, __m256d, __m256d, __m256d) {});

@@ -9,7 +9,7 @@ namespace {
 
 /// As moveQuads(), velocity and roll of a record in one register.
 template <bool couples, class Done>
-inline void moveTurning(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+inline void moveTurning(const ParticleView& v, std::int64_t first, int count, GroupSums s, double dt,
                         const double* gravity, double speedLimit, Speeds& speeds, Done&& done) {
   const __m512d share = _mm512_set_pd(0, 2.5, 2.5, 2.5, 0, 1, 1, 1);
   const __m512d pull = _mm512_set_pd(0, 0, 0, 0, 0, dt * gravity[2], dt * gravity[1], dt * gravity[0]);
@@ -23,9 +23,11 @@ inline void moveTurning(const ParticleView& v, std::int64_t first, int count, co
     const __m512d inverseMass = _mm512_set1_pd(r[7]), kick = time * inverseMass * share;
     const __mmask8 free = _mm512_cmp_pd_mask(inverseMass, held, _CMP_GT_OQ);
     const __m512d record = _mm512_loadu_pd(r + 4);
-    __m512d force = _mm512_load_pd(s.at[i]); // and torque
+    double* const sum = s.at(i);
+    __m512d force = _mm512_loadu_pd(sum); // and torque
+    _mm512_storeu_pd(sum, _mm512_setzero_pd());
     if constexpr (couples) {
-      const __m512d couple = _mm512_broadcast_f64x4(_mm256_load_pd(s.at[i] + 8));
+      const __m512d couple = _mm512_broadcast_f64x4(take(sum + 8));
       force = _mm512_mask_add_pd(force, 0x70, force, couple * _mm512_permutex_pd(record, 0xff));
     }
     __m512d change = kick * force;

@@ -1,6 +1,9 @@
 // The plain kernel: one number at a time. It is the oracle of the vector kernels.
 
 #include "sim/contact/pair_kernel_shared.h"
+#include "sim/contact/pair_sums.h"
+
+#include <algorithm>
 
 namespace sandglass {
 
@@ -61,34 +64,12 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
   }
 }
 
-void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  const int stride = 4 * v.outputQuads;
-  for (int i = 0; i < count; ++i) {
-    double* to = s.at[i];
-    for (int k = 0; k < 12; ++k)
-      to[k] = 0.0;
-    for (int slot = 0; slot < 8; ++slot) {
-      const std::int32_t entry = v.places[(first + i) * 8 + slot];
-      const double* out = ring + std::int64_t{entry >> 4} * stride;
-      const double sign = ringSigns[entry & 15];
-      for (int k = 0; k < 3; ++k)
-        to[k] += sign * out[k];
-      if (stride > 4)
-        for (int k = 4; k < 8; ++k)
-          to[k] += out[k];
-      if (stride > 8)
-        for (int k = 8; k < 11; ++k)
-          to[k] += sign * out[k];
-    }
-  }
-}
-
-void move(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
-          const double* gravity, double speedLimit, Speeds& speeds) {
+void move(const ParticleView& v, std::int64_t first, int count, GroupSums s, double dt, const double* gravity,
+          double speedLimit, Speeds& speeds) {
   double most[3] = {speeds.x, speeds.y, speeds.z};
   for (int i = 0; i < count; ++i) {
     double* r = v.records + (first + i) * 4 * v.quads;
-    const double* f = s.at[i];
+    double* f = s.at(i);
     const double kick = dt * r[7];
     const bool free = r[7] > heldInverseMass;
     for (int k = 0; k < 3; ++k) {
@@ -98,12 +79,12 @@ void move(const ParticleView& v, std::int64_t first, int count, const GroupSums&
       most[k] = size > most[k] ? size : most[k];
       speeds.bad = speeds.bad || !(size < speedLimit);
     }
-    if (v.quads < 3) continue;
     const double turn = 2.5 * kick;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3 && v.quads > 2; ++k) {
       const double torque = v.outputQuads > 2 ? f[4 + k] + f[8 + k] * r[11] : f[4 + k];
       r[8 + k] = r[8 + k] + (free ? turn * torque : 0.0);
     }
+    std::fill_n(f, s.stride, 0.0);
   }
   speeds.x = most[0];
   speeds.y = most[1];
@@ -113,7 +94,7 @@ void move(const ParticleView& v, std::int64_t first, int count, const GroupSums&
 } // namespace
 
 const Kernel& plainKernel() {
-  static const Kernel kernel{fill, write, sum, move};
+  static const Kernel kernel{fill, write, add, move};
   return kernel;
 }
 

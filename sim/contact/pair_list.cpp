@@ -49,7 +49,6 @@ PairList::PairList(const Domain& domain, int historySize, int outputStride, bool
       single_(single), memory_(1) {
   for (int k = 0; k < 3; ++k)
     periodic_ = periodic_ || domain.periodic[k];
-  now_.groupExtras.assign(1, 0);
 }
 
 void PairList::build(GrainStore& grains, double range, Parallel& parallel,
@@ -76,8 +75,8 @@ void PairList::build(GrainStore& grains, double range, Parallel& parallel,
   carryHistories(parallel);
   const auto outputs = static_cast<std::size_t>((crossing_.end * outputStride_ + 3) / 4);
   if (memory_.size() < outputs) memory_.resize(outputs);
-  link(parallel);
-  findPlaces(parallel);
+  findCrossings(parallel);
+  findRing();
 }
 
 /// Columns and `listed` of the grains of a group, or of all.
@@ -320,8 +319,7 @@ std::size_t PairList::bytes() const {
       (groupEnd_.capacity() + groupReach_.capacity()) * sizeof(std::int64_t) + quiet_.capacity() +
       grid_.bytes() +
       (rows_.first.capacity() + rows_.length.capacity() + newOf_.capacity()) * sizeof(std::int32_t) +
-      filled_.capacity() + places_.capacity() * sizeof(std::int32_t) + lent_.capacity() * sizeof(Extra) +
-      groupLent_.capacity() * sizeof(std::int32_t);
+      crossings_.capacity() * sizeof(Crossing) + groupCrossings_.capacity() * sizeof(std::int32_t);
   for (const Block& block : blocks_)
     total += block.rows.bytes();
   return total;

@@ -7,7 +7,8 @@
 // grain that comes first in storage, so once row i is done every contact of grain i is known and nobody later
 // reads its old state. Rows are cut into chunks of grains for threads; pairs between two chunks stand in a
 // section of their own that is evaluated first. Sections start at multiples of `lane` and are padded with
-// pairs of two phantom grains (storage indices grains.size() and grains.size() + 1) that never touch.
+// pairs of two phantom grains (storage indices grains.size() and grains.size() + 1) that never touch: their
+// outputs are zeros.
 // The cutting depends on the number of grains alone, never on the number of threads: a power of two up to
 // 16, so few that chunks of a cube of grains would be five layers thick, and one below 4096 grains.
 
@@ -31,13 +32,12 @@ public:
   static constexpr int lane = PairListing::lane;
   /// Grains that are integrated together.
   static constexpr int group = PairListing::group;
-  /// Contacts per grain that are found without looking further.
-  static constexpr int slotCount = PairListing::slotCount;
-
   /// Storage indices a and b; a has the smaller id (or is its own image).
   using Pair = PairListing::Pair;
-  /// A contact of a grain beyond its slots, or one with another chunk.
-  using Extra = PairListing::Extra;
+  /// A contact of a grain with one of another chunk: pair << 1, and 1 where the grain is the pair's b.
+  struct Crossing {
+    std::int32_t grain, entry;
+  };
   struct Range {
     std::int64_t begin = 0, end = 0;
   };
@@ -88,31 +88,13 @@ public:
   /// meets records for the first time.
   std::int64_t groupReach(std::int64_t g) const { return groupReach_[g]; }
 
-  // Per grain: what its contacts give. Outputs of a chunk's own pairs stand in a ring while the chunk is
-  // swept from its first pair on, blocks of 64 pairs at a time: pair p at (p - chunkPairs(c).begin) modulo
-  // window(). It is no longer than outputs are needed, so that it stays in the cache.
-  /// A power of two, not below 64. Behind the ring belong a zero output and those lent to the present group.
-  std::int64_t window() const { return window_; }
-  std::int64_t ringSize() const { return window_ + 1 + group * slotCount; } ///< [outputs]
-  /// slotCount per grain, made by ringEntry(); places of empty ones: window().
-  const std::int32_t* places() const { return places_.data(); }
-  /// Outputs of pairs between chunks that the slots of a group's grains ask for: the k-th belongs at place
-  /// window() + 1 + k. Extra::entry is the pair. g = index / group.
-  const std::vector<Extra>& lent() const { return lent_; }
-  Range groupLent(std::int64_t g) const { return {groupLent_[g], groupLent_[g + 1]}; }
-  /// Where a pair's output stands during the sweep of chunk c.
-  const double* outputOf(std::int64_t pair, int c, const double* ring) const {
-    const std::int64_t mine = pair - chunkPairs_[c].begin;
-    return mine >= 0 ? ring + (mine & (window_ - 1)) * outputStride_ : &memory_[0].x + pair * outputStride_;
-  }
-
-  // All contacts of a grain: entries are (pair << 1 | 1 when the
-  // grain is b); empty slots are entries() << 1, and what has no slot stands among the extras.
-  const std::int32_t* slots(std::int64_t grain) const { return now_.slots.data() + grain * slotCount; }
-  const std::vector<Extra>& extras() const { return now_.extras; } ///< ordered by grain
-  Range groupExtras(std::int64_t g) const {                        ///< into extras()
-    return {now_.groupExtras[g], now_.groupExtras[g + 1]};
-  }
+  // Sums of what contacts do to a grain stand in a ring while its chunk is swept from the first pair on,
+  // blocks of ContactBlock::capacity pairs at a time: those of grain i in row i modulo sumRows(). It is no
+  // longer than from the group of grains that is due to whoever has been met, so that it stays in the cache.
+  std::int64_t sumRows() const { return sumRows_; } ///< a power of two, not below `group`
+  /// The contacts of a group of grains with other chunks. g = index / group.
+  const std::vector<Crossing>& crossings() const { return crossings_; }
+  Range groupCrossings(std::int64_t g) const { return {groupCrossings_[g], groupCrossings_[g + 1]}; }
 
   // Histories: number k of pair p is history()[(p / lane) * lane * historySize + k * lane + p % lane], in
   // floats if they are single.
@@ -168,8 +150,8 @@ private:
   void writeGroup(const GrainStore& grains, Block& block, std::int64_t first,
                   std::vector<std::int32_t>& owners);
   void carryHistories(Parallel& parallel);
-  void link(Parallel& parallel);
-  void findPlaces(Parallel& parallel);
+  void findCrossings(Parallel& parallel);
+  void findRing();
 
   Domain domain_;
   bool periodic_ = false;
@@ -179,10 +161,9 @@ private:
   PairKeys past_; ///< of the listing before, while histories are carried
   std::int64_t size_ = 0;
   AlignedVector<Quad> memory_; ///< outputs of crossing pairs; during a build for anybody, old histories last
-  std::int64_t window_ = 64;
-  AlignedVector<std::int32_t> places_;
-  std::vector<Extra> lent_;
-  std::vector<std::int32_t> groupLent_;
+  std::int64_t sumRows_ = group;
+  std::vector<Crossing> crossings_;
+  std::vector<std::int32_t> groupCrossings_; ///< the first of each group, and their number
   Range crossing_;
   std::vector<Range> chunkGrains_, chunkPairs_,
       chunkCrossing_; ///< the last: crossing rows of a chunk's grains
@@ -197,7 +178,6 @@ private:
   std::vector<Block> blocks_;
   RowTable rows_;
   std::vector<std::int32_t> newOf_; ///< new storage index of each old grain
-  std::vector<std::uint8_t> filled_;
 };
 
 } // namespace sandglass

@@ -27,21 +27,12 @@ struct PairKeys {
 };
 
 struct PairListing : PairKeys {
-  static constexpr int lane = ParticleView::lane, group = 32, slotCount = 8;
-  struct Extra {
-    std::int32_t grain, entry;
-  };
+  static constexpr int lane = ParticleView::lane, group = 32;
 
-  AlignedVector<std::int32_t> slots; ///< slotCount per grain
-  std::vector<Extra> extras;
-  std::vector<std::int32_t> groupExtras; ///< first of extras of each group of grains; one more at the end
-  AlignedVector<Quad> history;           ///< doubles or floats
+  AlignedVector<Quad> history; ///< doubles or floats
 
   std::int64_t groups() const { return (grains + group - 1) / group; }
-  std::size_t bytes() const {
-    return PairKeys::bytes() + slots.capacity() * sizeof(std::int32_t) + extras.capacity() * sizeof(Extra) +
-           groupExtras.capacity() * sizeof(std::int32_t) + history.capacity() * sizeof(Quad);
-  }
+  std::size_t bytes() const { return PairKeys::bytes() + history.capacity() * sizeof(Quad); }
 };
 
 } // namespace sandglass

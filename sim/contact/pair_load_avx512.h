@@ -112,26 +112,44 @@ inline void scatter(__m512d x, __m512d y, __m512d z, double* out, std::int64_t s
   put(highXy, highZ, 1);
 }
 
-/// Columns of two vectors to pairs of quads that stand side by side, each pair of quads in one store, and
-/// `stride` doubles from one pair to the next.
-template <int stride>
-inline void scatterTwo(__m512d x, __m512d y, __m512d z, __m512d tx, __m512d ty, __m512d tz, double* out) {
+/// Columns of two vectors of eight contacts to pairs of quads, a register for each contact.
+struct QuadsOfTwo {
+  __m512d of[8];
+};
+SANDGLASS_LOOP QuadsOfTwo quadsOfTwo(__m512d x, __m512d y, __m512d z, __m512d tx, __m512d ty, __m512d tz) {
   const __m512d zero = _mm512_setzero_pd();
-  const auto put = [&](__m512d xy, __m512d z0, __m512d txy, __m512d tz0, int at) {
+  QuadsOfTwo quads;
+  const auto put = [&](__m512d xy, __m512d z0, __m512d txy, __m512d tz0, int at) SANDGLASS_LAMBDA {
     // Lanes of 128 bits, one contact each: force x y, z 0, torque x y, z 0.
     const __m512d a = _mm512_shuffle_f64x2(xy, z0, 0x44), b = _mm512_shuffle_f64x2(txy, tz0, 0x44);
     const __m512d c = _mm512_shuffle_f64x2(xy, z0, 0xee), d = _mm512_shuffle_f64x2(txy, tz0, 0xee);
-    const __m512d first = _mm512_shuffle_f64x2(a, b, 0x88), second = _mm512_shuffle_f64x2(a, b, 0xdd);
-    const __m512d third = _mm512_shuffle_f64x2(c, d, 0x88), fourth = _mm512_shuffle_f64x2(c, d, 0xdd);
-    _mm512_storeu_pd(out + at * stride, first);
-    _mm512_storeu_pd(out + (at + 2) * stride, second);
-    _mm512_storeu_pd(out + (at + 4) * stride, third);
-    _mm512_storeu_pd(out + (at + 6) * stride, fourth);
+    quads.of[at] = _mm512_shuffle_f64x2(a, b, 0x88);
+    quads.of[at + 2] = _mm512_shuffle_f64x2(a, b, 0xdd);
+    quads.of[at + 4] = _mm512_shuffle_f64x2(c, d, 0x88);
+    quads.of[at + 6] = _mm512_shuffle_f64x2(c, d, 0xdd);
   };
   put(_mm512_unpacklo_pd(x, y), _mm512_unpacklo_pd(z, zero), _mm512_unpacklo_pd(tx, ty),
       _mm512_unpacklo_pd(tz, zero), 0);
   put(_mm512_unpackhi_pd(x, y), _mm512_unpackhi_pd(z, zero), _mm512_unpackhi_pd(tx, ty),
       _mm512_unpackhi_pd(tz, zero), 1);
+  return quads;
+}
+
+/// `stride` doubles from one contact to the next.
+template <int stride> SANDGLASS_LOOP void storeTwo(const QuadsOfTwo& quads, double* out) {
+  for (int k = 0; k < 8; ++k)
+    _mm512_storeu_pd(out + k * stride, quads.of[k]);
+}
+
+/// As addOutputs() does it, from registers.
+SANDGLASS_LOOP void addTwo(const QuadsOfTwo& quads, const std::int32_t* pair, SumRing sums) {
+  const __m512d sign = _mm512_set_pd(1, 1, 1, 1, -1, -1, -1, -1);
+  for (int k = 0; k < 8; ++k) {
+    double* const a = sums.row(pair[2 * k], 2);
+    _mm512_store_pd(a, _mm512_load_pd(a) + quads.of[k]);
+    double* const b = sums.row(pair[2 * k + 1], 2);
+    _mm512_store_pd(b, _mm512_fmadd_pd(quads.of[k], sign, _mm512_load_pd(b)));
+  }
 }
 
 } // namespace

@@ -214,13 +214,13 @@ void SectorContacts::step(const GrainStore& grains, double dt, Parallel& paralle
                     });
 }
 
-void SectorContacts::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first,
+void SectorContacts::addTo(GroupSums sums, const GrainStore& grains, std::int64_t first,
                            std::int64_t last) const {
   if (contacts_.empty() || offsets_[first] == offsets_[last]) return;
   for (std::int64_t i = first; i < last; ++i)
     for (std::int32_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
       const double* out = result_.data() + (entries_[k] >> 1) * std::int64_t{12} + (entries_[k] & 1) * 6;
-      double* to = sums.at[i - first];
+      double* to = sums.at(i - first);
       for (int q = 0; q < 3; ++q)
         to[q] += out[q];
       if (!grains.turning) continue;

@@ -38,7 +38,7 @@ public:
 
   void step(const GrainStore& grains, double dt, Parallel& parallel, DeepestOverlap& deepest);
   /// Adds forces and torques over radius of the last step to the sums of the grains in [first, last).
-  void addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first, std::int64_t last) const;
+  void addTo(GroupSums sums, const GrainStore& grains, std::int64_t first, std::int64_t last) const;
 
   double storedEnergy(const GrainStore& grains, double dt) const;
 

@@ -307,12 +307,12 @@ void WallContacts::evaluate(const GrainStore& grains, const std::vector<SolverWa
   }
 }
 
-void WallContacts::addTo(GroupSums& sums, const GrainStore& grains, const std::vector<SolverWall>& walls,
+void WallContacts::addTo(GroupSums sums, const GrainStore& grains, const std::vector<SolverWall>& walls,
                          std::int64_t first, std::int64_t last, Sweep& s) {
   using Row = Eigen::Map<const Eigen::Array4d, Eigen::Aligned32>;
   using Sum = Eigen::Map<Eigen::Array4d, Eigen::Aligned32>;
   while (s.upcoming < last) {
-    double* to = sums.at[s.upcoming - first];
+    double* to = sums.at(s.upcoming - first);
     const double* row = s.block.row[s.row];
     Sum(to) += Row(row);
     if (grains.turning) Sum(to + 4) += grains.roll[s.upcoming].w * Row(row + 4);

@@ -44,7 +44,7 @@ public:
              std::int64_t last, double dt, bool keepHistory, bool loads);
   /// Adds forces and torques over radius to the sums of the grains in [first, last), in wall order. From
   /// group to group of a sweep; grains behind `first` are still where the step found them.
-  void addTo(GroupSums& sums, const GrainStore& grains, const std::vector<SolverWall>& walls,
+  void addTo(GroupSums sums, const GrainStore& grains, const std::vector<SolverWall>& walls,
              std::int64_t first, std::int64_t last, Sweep& sweep);
 
   /// Whether tally() reads the forces of each step.

@@ -16,15 +16,15 @@ namespace {
 constexpr double freeInverseMass = 1e-20;
 
 /// Adds columns to a quad of each grain's sums.
-void addQuads(GroupSums& sums, int quad, int size, const double* x, const double* y, const double* z) {
-  for (int i = 0; i < size; i += 4) { // rows behind the last hold nothing
-    const Columns rows =
+void addQuads(GroupSums sums, int quad, int size, const double* x, const double* y, const double* z) {
+  for (int i = 0; i < size; i += 4) {
+    const Columns columns =
         transpose(_mm256_load_pd(x + i), _mm256_load_pd(y + i), _mm256_load_pd(z + i), _mm256_setzero_pd());
-    const auto add = [&](int k, __m256d row) {
-      double* at = sums.at[i + k] + 4 * quad;
-      _mm256_store_pd(at, _mm256_add_pd(_mm256_load_pd(at), row));
-    };
-    add(0, rows.x), add(1, rows.y), add(2, rows.z), add(3, rows.w);
+    const __m256d rows[4] = {columns.x, columns.y, columns.z, columns.w};
+    for (int k = 0; k < 4 && i + k < size; ++k) {
+      double* at = sums.at(i + k) + 4 * quad;
+      _mm256_store_pd(at, _mm256_add_pd(_mm256_load_pd(at), rows[k]));
+    }
   }
 }
 
@@ -98,7 +98,7 @@ void FieldStack::look(const GrainStore& grains, const PairList& pairs, double ti
     if (part.factor != 0.0 && part.field->looks()) part.field->look(grains, pairs, parallel);
 }
 
-void FieldStack::fill(FieldBlock& b, const GroupSums& sums, const GrainStore& grains, const Vec3& gravity,
+void FieldStack::fill(FieldBlock& b, GroupSums sums, const GrainStore& grains, const Vec3& gravity,
                       bool couples) const {
   const bool spins = spins_ && grains.turning;
   const auto store = [](double* column, int i, __m256d values) { _mm256_store_pd(column + i, values); };
@@ -111,7 +111,7 @@ void FieldStack::fill(FieldBlock& b, const GroupSums& sums, const GrainStore& gr
       return transpose(load(0), load(1), load(2), load(3));
     };
     const auto sumsOf = [&](int quad) {
-      const auto load = [&](int k) { return _mm256_load_pd(sums.at[at(k)] + 4 * quad); };
+      const auto load = [&](int k) { return _mm256_load_pd(sums.at(at(k)) + 4 * quad); };
       return transpose(load(0), load(1), load(2), load(3));
     };
     const Columns place = columnsOf(grains.place), motion = columnsOf(grains.motion), force = sumsOf(0);
@@ -155,7 +155,7 @@ void FieldStack::pass(FieldBlock& b) const {
   }
 }
 
-void FieldStack::addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first, std::int64_t last,
+void FieldStack::addTo(GroupSums sums, const GrainStore& grains, std::int64_t first, std::int64_t last,
                        double dt, const Vec3& gravity, bool couples, bool count) {
   FieldBlock b;
   b.first = first;

@@ -30,7 +30,7 @@ public:
 
   /// Adds to the sums of the grains in [first, last), which hold all contact forces. From several threads at
   /// once, for different groups. `count`: whether the step is really done, so that its work counts.
-  void addTo(GroupSums& sums, const GrainStore& grains, std::int64_t first, std::int64_t last, double dt,
+  void addTo(GroupSums sums, const GrainStore& grains, std::int64_t first, std::int64_t last, double dt,
              const Vec3& gravity, bool couples, bool count);
 
   /// [J] done on grains that are free, since the start.
@@ -51,8 +51,7 @@ private:
     std::vector<int> others; ///< of a drag: the flows that it feels, then its shields; indices into parts_
   };
   void resolve(const Scene& scene);
-  void fill(FieldBlock& b, const GroupSums& sums, const GrainStore& grains, const Vec3& gravity,
-            bool couples) const;
+  void fill(FieldBlock& b, GroupSums sums, const GrainStore& grains, const Vec3& gravity, bool couples) const;
   void pass(FieldBlock& b) const;
 
   std::vector<Part> parts_;

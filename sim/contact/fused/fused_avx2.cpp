@@ -11,6 +11,7 @@ struct Width256 {
   using Arithmetic = ExactAvx2;
   using Real = double;
   static constexpr int lanes = 4, quad = 4;
+  static constexpr bool addsAtOnce = false;
   using Reach = SumOfRadii<Arithmetic, V>;
   template <bool turning>
   SANDGLASS_LOOP static Vector3<V> places(const ParticleView& v, std::int64_t p, Reach& reach) {

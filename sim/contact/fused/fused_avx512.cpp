@@ -11,6 +11,7 @@ template <class A> struct Width512 {
   using Arithmetic = A;
   using Real = double;
   static constexpr int lanes = 8, quad = 4;
+  static constexpr bool addsAtOnce = true;
   using Reach = SumOfRadii<Arithmetic, V>;
   template <bool turning>
   SANDGLASS_LOOP static Vector3<V> places(const ParticleView& v, std::int64_t p, Reach& reach) {
@@ -40,7 +41,11 @@ template <class A> struct Width512 {
     if constexpr (quads == 1)
       scatter(f.x, f.y, f.z, out, 4);
     else
-      scatterTwo<4 * quads>(f.x, f.y, f.z, t.x, t.y, t.z, out);
+      storeTwo<4 * quads>(quadsOfTwo(f.x, f.y, f.z, t.x, t.y, t.z), out);
+  }
+  SANDGLASS_LOOP static void add(const ParticleView& v, std::int64_t p, const Vector3<V>& f,
+                                 const Vector3<V>& t, SumRing sums) {
+    addTwo(quadsOfTwo(f.x, f.y, f.z, t.x, t.y, t.z), v.pairs + 2 * p, sums);
   }
   SANDGLASS_LOOP static void storeCouple(double* out, const Vector3<V>& m) {
     scatter(m.x, m.y, m.z, out + 8, 12);

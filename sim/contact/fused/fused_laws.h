@@ -50,10 +50,11 @@ struct FusedTables {
 };
 
 /// Evaluates pairs first .. last - 1, multiples of 8 and no more than a block: outputs, which begin at `out`,
-/// and, unless `keepHistory`, histories. Returns the deepest overlap [m]. `ahead`, if not null: records that
+/// and, unless `keepHistory`, histories. With rows, `sums` are added to, and `out` is room for that. Returns
+/// the deepest overlap [m]. `ahead`, if not null: records that
 /// rows soon to come will read for the first time; a share of them is fetched into the cache, and histories.
 using FusedLoop = double (*)(const ParticleView&, const FusedLaws&, std::int64_t first, std::int64_t last,
-                             double dt, bool keepHistory, double* out, const char* ahead);
+                             double dt, bool keepHistory, double* out, SumRing sums, const char* ahead);
 
 /// Null where the combination has no loop of this width.
 FusedLoop fusedLoopAvx2(const FusedLaws& laws);

@@ -1,12 +1,14 @@
 #pragma once
 // The text of all fused loops. `W` is a register width: its vector `V` of `lanes` numbers `Real`, places()
 // and motions() of that many pairs from grain records, store() to outputs (storeCouple() for those of rolling
-// resistance, which comes in double precision alone), and its arithmetic. `Reach` of a
+// resistance, which comes in double precision alone), add() of two quads to sums if it `addsAtOnce`, and its
+// arithmetic. `Reach` of a
 // register of pairs is what tells, with their distances, how far they overlap.
 
 #include "sim/contact/contact_geometry.h"
 #include "sim/contact/fused/fused_laws.h"
 #include "sim/contact/laws/narrowed.h"
+#include "sim/contact/pair_sums.h"
 
 #include <type_traits>
 #include <utility>
@@ -125,16 +127,15 @@ template <class A, class V> struct SumOfRadii {
   }
 };
 
-/// Pairs none of which touches: no force, no history. Zeros are written once, to spare the memory.
-template <class W, bool turning, int historySize, int outputQuads>
-void rest(const ParticleView& v, std::int64_t p, bool keepHistory, double* out) {
+/// Pairs none of which touches: no history. Zeros are written once, to spare the memory.
+template <class W, bool turning, int historySize>
+void rest(const ParticleView& v, std::int64_t p, bool keepHistory) {
   const auto zero = W::Arithmetic::template all<typename W::V>(0.0);
   if (turning && !keepHistory && !v.quiet[p / W::lanes]) {
     for (int k = 0; k < historySize; ++k)
       W::write(historyOf<historySize, typename W::Real>(v, p) + ParticleView::lane * k, zero);
     v.quiet[p / W::lanes] = 1;
   }
-  W::template clear<outputQuads>(out);
 }
 
 /// Asks for histories of a block further on, unless they are zeros of pairs at rest, and for the records that
@@ -158,7 +159,7 @@ SANDGLASS_LOOP const char* fetch(const ParticleView& v, std::int64_t p, const ch
 template <class W, FusedLaws::Normal kind, bool turning, bool project, Dashpot dashpot,
           FusedLaws::Rolling rolling = FusedLaws::Rolling::none, bool several = false>
 double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t first, std::int64_t last,
-                 double dt, bool keepHistory, double* out, const char* ahead) {
+                 double dt, bool keepHistory, double* out, SumRing sums, const char* ahead) {
   using V = typename W::V;
   using Real = typename W::Real;
   using A = std::conditional_t<several, WithRegisters<typename W::Arithmetic>, typename W::Arithmetic>;
@@ -176,6 +177,7 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
   constexpr int outputQuads = rolls ? 3 : turning ? 2 : 1, stride = W::quad * outputQuads;
   const V zero = A::template all<V>(0.0), one = A::template all<V>(1.0);
   const V oneRadius = A::template all<V>(1.0 / (1.0 / v.oneRadius + 1.0 / v.oneRadius));
+  constexpr bool atOnce = W::addsAtOnce && outputQuads == 2; ///< sums are added to without outputs between
   const bool anyRadius =
       kind == Normal::hertzOfSize || ((several || laws.couple.coefficient != 0.0) && v.oneRadius == 0.0);
   const bool radiusArm = laws.radiusArm;
@@ -207,7 +209,8 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
     if (c + W::lanes < count) begin(c + W::lanes, next);
     if (ahead) ahead = fetch<W, turning, historySize>(v, first + c, ahead);
     if (!now.near) {
-      rest<W, turning, historySize, outputQuads>(v, first + c, keepHistory, out + c * stride);
+      rest<W, turning, historySize>(v, first + c, keepHistory);
+      if (!sums.rows) W::template clear<outputQuads>(out + c * stride);
       continue;
     }
     active[actives++] = c;
@@ -282,8 +285,13 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       }
       V arm = one;
       if (!radiusArm) arm = W::read(b.arm + c);
-      W::template store<outputQuads>(out + stride * c, plus<A>(ft, normal.force, n),
-                                     contactTorque<A>(n, arm, ft));
+      const Vector3<V> force = plus<A>(ft, normal.force, n), torque = contactTorque<A>(n, arm, ft);
+      if constexpr (atOnce)
+        if (sums.rows) {
+          W::add(v, p, force, torque, sums);
+          continue;
+        }
+      W::template store<outputQuads>(out + stride * c, force, torque);
     }
   }
   if constexpr (rolls)
@@ -309,6 +317,10 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
                        constantCouple<A>(couple, pair, overlap, load, coupleCap(static_cast<Real>(dt))));
       }
     }
+  if (!atOnce && sums.rows)
+    for (int k = 0; k < actives; ++k)
+      addOutputs<outputQuads>(v, first + active[k], W::lanes,
+                              reinterpret_cast<const Real*>(out + stride * active[k]), sums);
   alignas(64) Real each[W::lanes];
   W::write(each, deepest);
   double most = 0.0;

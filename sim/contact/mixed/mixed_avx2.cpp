@@ -33,6 +33,7 @@ struct Width256 {
   using Real = float;
   using Arithmetic = SingleAvx2;
   static constexpr int lanes = 8, quad = 2;
+  static constexpr bool addsAtOnce = false;
   using Reach = MixedReach<Arithmetic, V>;
 
   /// A quad of eight pairs: z times `sign` added to a.
@@ -121,23 +122,6 @@ struct Width256 {
   }
 };
 
-void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  const std::int32_t* slot = v.places + first * 8;
-  for (int i = 0; i < count; ++i, slot += 8) {
-    __m256d force = _mm256_setzero_pd(), torque = force;
-    for (int k = 0; k < 8; ++k) {
-      const std::int64_t entry = slot[k];
-      const auto* out = reinterpret_cast<const float*>(ring + (entry >> 4) * v.outputStride);
-      force =
-          _mm256_fmadd_pd(_mm256_cvtps_pd(_mm_load_ps(out)), _mm256_load_pd(ringSigns + (entry & 15)), force);
-      if (v.outputQuads > 1) torque = _mm256_add_pd(torque, _mm256_cvtps_pd(_mm_load_ps(out + 4)));
-    }
-    _mm256_store_pd(s.at[i], force);
-    _mm256_store_pd(s.at[i] + 4, torque);
-    _mm256_store_pd(s.at[i] + 8, _mm256_setzero_pd());
-  }
-}
-
 } // namespace
 
 FusedLoop mixedLoopAvx2(const FusedLaws& laws) {
@@ -146,7 +130,6 @@ FusedLoop mixedLoopAvx2(const FusedLaws& laws) {
 
 Kernel mixedKernelAvx2() {
   Kernel kernel = avx2Kernel();
-  kernel.sum = sum;
   kernel.move = moveAndNarrow;
   kernel.narrow = narrow;
   return kernel;

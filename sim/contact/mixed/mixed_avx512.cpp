@@ -45,6 +45,7 @@ template <class A> struct Width512 {
   using Real = float;
   using Arithmetic = A;
   static constexpr int lanes = 16, quad = 2;
+  static constexpr bool addsAtOnce = false;
   using Reach = MixedReach<Arithmetic, V>;
 
   template <bool turning>
@@ -168,32 +169,7 @@ template <class A> struct Width512 {
   }
 };
 
-template <bool turning>
-inline void sums(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  const std::int32_t* slot = v.places + first * 8;
-  const auto* outputs = reinterpret_cast<const char*>(ring);
-  for (int i = 0; i < count; ++i, slot += 8) {
-    __m512d total = _mm512_setzero_pd(); // force and torque
-    for (int k = 0; k < 8; ++k) {
-      const auto entry = static_cast<std::uint32_t>(slot[k]);
-      const auto* out =
-          reinterpret_cast<const float*>(outputs + std::uint64_t{entry & ~15u} * (turning ? 2 : 1));
-      __m512d numbers;
-      if constexpr (turning)
-        numbers = _mm512_cvtps_pd(_mm256_load_ps(out)); // by the load itself
-      else
-        numbers = _mm512_zextpd256_pd512(_mm256_cvtps_pd(_mm_load_ps(out)));
-      total = _mm512_fmadd_pd(_mm512_load_pd(ringSigns + (entry & 15u)), numbers, total);
-    }
-    _mm512_storeu_pd(s.at[i], total);
-  }
-}
-
-void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  v.outputQuads > 1 ? sums<true>(v, first, count, ring, s) : sums<false>(v, first, count, ring, s);
-}
-
-void moveBoth(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+void moveBoth(const ParticleView& v, std::int64_t first, int count, GroupSums s, double dt,
               const double* gravity, double speedLimit, Speeds& speeds) {
   if (v.quads < 3) return moveAndNarrow(v, first, count, s, dt, gravity, speedLimit, speeds);
   moveTurning<false>(v, first, count, s, dt, gravity, speedLimit, speeds,
@@ -213,7 +189,6 @@ FusedLoop mixedLoopAvx512(const FusedLaws& laws, bool fast) {
 
 Kernel mixedKernelAvx512() {
   Kernel kernel = avx512Kernel();
-  kernel.sum = sum;
   kernel.move = moveBoth;
   kernel.narrow = narrow;
   return kernel;

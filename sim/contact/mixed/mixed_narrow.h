@@ -32,7 +32,7 @@ inline void narrow(const ParticleView& v, std::int64_t first, int count) {
   }
 }
 
-inline void moveAndNarrow(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+inline void moveAndNarrow(const ParticleView& v, std::int64_t first, int count, GroupSums s, double dt,
                           const double* gravity, double speedLimit, Speeds& speeds) {
   moveQuads(v, first, count, s, dt, gravity, speedLimit, speeds,
             [&v](std::int64_t i, __m256d place, __m256d motion, __m256d roll) {

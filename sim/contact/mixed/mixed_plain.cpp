@@ -15,6 +15,7 @@ struct Width1 {
   using Real = float;
   using Arithmetic = ScalarArithmetic;
   static constexpr int lanes = 1, quad = 2;
+  static constexpr bool addsAtOnce = false;
   using Reach = MixedReach<Arithmetic, V>;
   static const std::int32_t* record(const ParticleView& v, std::int64_t p, int side) {
     return v.mixed + v.pairs[2 * p + side] * std::int64_t{4} * v.quads;
@@ -57,22 +58,6 @@ struct Width1 {
   }
 };
 
-void sum(const ParticleView& v, std::int64_t first, int count, const double* ring, GroupSums& s) {
-  for (int i = 0; i < count; ++i) {
-    double* to = s.at[i];
-    std::fill_n(to, 12, 0.0);
-    for (int slot = 0; slot < 8; ++slot) {
-      const std::int32_t entry = v.places[(first + i) * 8 + slot];
-      const auto* out = reinterpret_cast<const float*>(ring + std::int64_t{entry >> 4} * v.outputStride);
-      const double sign = ringSigns[entry & 15];
-      for (int k = 0; k < 3; ++k)
-        to[k] += sign * static_cast<double>(out[k]);
-      for (int k = 4; k < 7 && v.outputQuads > 1; ++k)
-        to[k] += static_cast<double>(out[k]);
-    }
-  }
-}
-
 void narrow(const ParticleView& v, std::int64_t first, int count) {
   for (std::int64_t i = first; i < first + count; ++i) {
     const double* from = v.records + i * 4 * v.quads;
@@ -84,7 +69,7 @@ void narrow(const ParticleView& v, std::int64_t first, int count) {
   }
 }
 
-void moveAndNarrow(const ParticleView& v, std::int64_t first, int count, const GroupSums& s, double dt,
+void moveAndNarrow(const ParticleView& v, std::int64_t first, int count, GroupSums s, double dt,
                    const double* gravity, double speedLimit, Speeds& speeds) {
   plainKernel().move(v, first, count, s, dt, gravity, speedLimit, speeds);
   narrow(v, first, count);
@@ -98,7 +83,6 @@ FusedLoop mixedLoopPlain(const FusedLaws& laws) {
 
 Kernel mixedKernelPlain() {
   Kernel kernel = plainKernel();
-  kernel.sum = sum;
   kernel.move = moveAndNarrow;
   kernel.narrow = narrow;
   return kernel;

@@ -82,8 +82,8 @@ Forecast forecast(const Scene& scene) {
   const auto tell = [&](bool used, const std::string& feature, const std::string& cost) {
     (used ? f.modelled : f.notModelled).push_back(used ? feature + "; " + cost : feature);
   };
-  tell(laws.turning(), "spin of grains", "32 bytes a grain, 32 bytes a pair");
-  tell(laws.readsSpin(), "couples of rolling and torsion", "32 bytes a pair");
+  tell(laws.turning(), "spin of grains", "32 bytes a grain");
+  tell(laws.readsSpin(), "couples of rolling and torsion", "one more look at each pair that touches");
   tell(laws.range() > 0.0, "forces across a gap", fmt::format("lists reach {:.3g} m further", laws.range()));
   tell(periodic, "periodic directions", "12 bytes a grain, 1 byte a pair");
   tell(scene.wedge.has_value(), "a wedge with images across its faces", "paid by the grains near a face");

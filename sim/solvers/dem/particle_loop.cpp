@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <mutex>
+#include <utility>
 
 namespace sandglass {
 
@@ -35,25 +35,17 @@ void ParticleLoop::bind() {
   travel_.begin(grains_);
 }
 
-void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, double* ring,
-                            WallContacts::Sweep& atWalls, GroupSums& sums) const {
+/// What acts on a group of grains beyond the pairs of its chunk.
+void ParticleLoop::completeSums(std::int64_t g, std::int64_t last, WallContacts::Sweep& atWalls,
+                                GroupSums sums) const {
   const std::int64_t first = g * group;
   const ParticleView& view = pairs_.view();
-  const std::int64_t stride = list_.outputStride();
-  const PairList::Range lent = list_.groupLent(g);
-  double* to = ring + (list_.window() + 1) * stride;
-  for (std::int64_t e = lent.begin; e < lent.end; ++e) {
-    const double* from = list_.crossingOutput() + list_.lent()[e].entry * stride;
-    for (std::int64_t k = 0; k < stride; k += 2, to += 2) // no call for so little
-      std::memcpy(to, from + k, 2 * sizeof(double));
-  }
-  pairs_.kernel().sum(view, first, static_cast<int>(last - first), ring, sums);
-  const PairList::Range extras = list_.groupExtras(g);
-  for (std::int64_t e = extras.begin; e < extras.end; ++e) {
-    const PairList::Extra& extra = list_.extras()[e];
-    double* sum = sums.at[extra.grain - first];
-    const double* out = list_.outputOf(extra.entry >> 1, chunk, ring);
-    const double sign = extra.entry & 1 ? -1.0 : 1.0;
+  const PairList::Range crossings = list_.groupCrossings(g);
+  for (std::int64_t e = crossings.begin; e < crossings.end; ++e) {
+    const PairList::Crossing& crossing = list_.crossings()[e];
+    double* const sum = sums.at(crossing.grain - first);
+    const double* const out = list_.crossingOutput() + (crossing.entry >> 1) * list_.outputStride();
+    const double sign = crossing.entry & 1 ? -1.0 : 1.0;
     const auto add = [&](const auto* numbers) {
       for (int q = 0; q < view.outputQuads; ++q) {
         const double factor = q == 1 ? 1.0 : sign;
@@ -67,13 +59,15 @@ void ParticleLoop::sumGroup(int chunk, std::int64_t g, std::int64_t last, double
   across_.addTo(sums, grains_, first, last);
 }
 
+/// Calls done(group, end of its grains, their sums), which leaves zeros in the sums.
 template <class Done>
 void ParticleLoop::sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done) {
   const PairList::Range grains = list_.chunkGrains(chunk), pairs = list_.chunkPairs(chunk);
-  const std::int64_t stride = list_.outputStride(), mask = list_.window() - 1;
-  const auto size = static_cast<std::size_t>(list_.ringSize() * stride);
-  if (scratch.ring.size() < size) scratch.ring.resize(size);
-  std::fill_n(scratch.ring.begin() + list_.window() * stride, stride, 0.0);
+  const int quads = pairs_.view().outputQuads;
+  const auto size = static_cast<std::size_t>(list_.sumRows() * 4 * quads);
+  if (!std::exchange(scratch.swept, false)) std::fill(scratch.sums.begin(), scratch.sums.end(), 0.0);
+  if (scratch.sums.size() < size) scratch.sums.resize(size);
+  const SumRing sums{scratch.sums.data(), list_.sumRows() - 1};
   std::int64_t next = pairs.begin;
   for (std::int64_t first = grains.begin; first < grains.end; first += group) {
     const std::int64_t g = first / group, last = (grains.end - 1) / group, begin = next;
@@ -82,13 +76,13 @@ void ParticleLoop::sweep(int chunk, double dt, bool keepHistory, PairForces::Scr
     const std::int64_t to = list_.groupReach(std::min(g + groupsAhead + 1, last));
     while (next < list_.groupEnd(g)) {
       const std::int64_t end = std::min(next + ContactBlock::capacity, pairs.end);
-      pairs_.evaluate({next, end}, dt, keepHistory, scratch,
-                      scratch.ring.data() + ((next - pairs.begin) & mask) * stride,
+      pairs_.addBlock({next, end}, dt, keepHistory, scratch, sums,
                       from + (to - from) * (next - begin) / (list_.groupEnd(g) - begin));
       next = end;
     }
-    done(g, std::min(first + group, grains.end), scratch.ring.data());
+    done(g, std::min(first + group, grains.end), GroupSums{sums.row(first, quads), 4 * quads});
   }
+  scratch.swept = true;
 }
 
 void ParticleLoop::crossing(double dt, bool keepHistory) {
@@ -118,13 +112,12 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
   parallel_.forRange(list_.chunks(), 1, [&](std::int64_t firstChunk, std::int64_t lastChunk) {
     PairForces::Scratch& scratch = scratchOfThread();
     WallContacts::Sweep& atWalls = wallsOfThread();
-    GroupSums sums;
     bool tired = false, wrong = false;
     for (std::int64_t c = firstChunk; c < lastChunk; ++c) {
       const PairList::Range range = list_.chunkGrains(static_cast<int>(c));
       atWalls_.begin(atWalls, grains_, walls_, range.begin, range.end, dt, false, atWalls_.tallied());
-      sweep(static_cast<int>(c), dt, false, scratch, [&](std::int64_t g, std::int64_t last, double* ring) {
-        sumGroup(static_cast<int>(c), g, last, ring, atWalls, sums);
+      sweep(static_cast<int>(c), dt, false, scratch, [&](std::int64_t g, std::int64_t last, GroupSums sums) {
+        completeSums(g, last, atWalls, sums);
         if (!watched_.empty()) keepWatched(g * group, last, sums);
         if (fields_.any())
           fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, true);
@@ -153,10 +146,10 @@ void ParticleLoop::watch(std::vector<std::int32_t> grains) {
   watchedSums_.assign(watched_.size(), {});
 }
 
-void ParticleLoop::keepWatched(std::int64_t first, std::int64_t last, const GroupSums& sums) {
+void ParticleLoop::keepWatched(std::int64_t first, std::int64_t last, GroupSums sums) {
   for (auto at = std::lower_bound(watched_.begin(), watched_.end(), first);
        at != watched_.end() && *at < last; ++at)
-    std::copy_n(sums.at[*at - first], 12, watchedSums_[at - watched_.begin()].begin());
+    std::copy_n(sums.at(*at - first), sums.stride, watchedSums_[at - watched_.begin()].begin());
 }
 
 void ParticleLoop::watchedForce(std::size_t k, Vec3& force, Vec3& torque) const {
@@ -179,22 +172,20 @@ void ParticleLoop::forces(double dt, const Vec3& gravity, std::vector<Quad>& for
   parallel_.forRange(list_.chunks(), 1, [&](std::int64_t firstChunk, std::int64_t lastChunk) {
     PairForces::Scratch& scratch = scratchOfThread();
     WallContacts::Sweep& atWalls = wallsOfThread();
-    GroupSums sums;
     for (std::int64_t c = firstChunk; c < lastChunk; ++c) {
       const PairList::Range range = list_.chunkGrains(static_cast<int>(c));
       atWalls_.begin(atWalls, grains_, walls_, range.begin, range.end, dt, true, true);
-      sweep(static_cast<int>(c), dt, true, scratch, [&](std::int64_t g, std::int64_t last, double* ring) {
-        sumGroup(static_cast<int>(c), g, last, ring, atWalls, sums);
+      sweep(static_cast<int>(c), dt, true, scratch, [&](std::int64_t g, std::int64_t last, GroupSums sums) {
+        completeSums(g, last, atWalls, sums);
         if (fields_.any())
           fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, false);
         for (std::int64_t i = g * group; i < last; ++i) {
-          const double* s = sums.at[i - g * group];
+          double* const s = sums.at(i - g * group);
           force[i] = {s[0], s[1], s[2], 0.0};
-          if (!grains_.turning) continue;
           const double r = grains_.place[i].w;
-          torque[i] = {r * s[4], r * s[5], r * s[6], 0.0};
-          if (pairs_.view().outputQuads > 2)
-            torque[i] = {r * s[4] + s[8], r * s[5] + s[9], r * s[6] + s[10], 0.0};
+          if (grains_.turning) torque[i] = {r * s[4], r * s[5], r * s[6], 0.0};
+          if (sums.stride > 8) torque[i] = {r * s[4] + s[8], r * s[5] + s[9], r * s[6] + s[10], 0.0};
+          std::fill_n(s, sums.stride, 0.0);
         }
       });
     }

@@ -54,9 +54,9 @@ public:
   GroupTravel& travel() { return travel_; }
 
 private:
-  void keepWatched(std::int64_t first, std::int64_t last, const GroupSums& sums);
-  void sumGroup(int chunk, std::int64_t group, std::int64_t last, double* ring, WallContacts::Sweep& atWalls,
-                GroupSums& sums) const;
+  void keepWatched(std::int64_t first, std::int64_t last, GroupSums sums);
+  void completeSums(std::int64_t group, std::int64_t last, WallContacts::Sweep& atWalls,
+                    GroupSums sums) const;
   template <class Done>
   void sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done);
   void crossing(double dt, bool keepHistory);
@@ -71,7 +71,7 @@ private:
   Parallel& parallel_;
   GroupTravel travel_;
   std::vector<std::int32_t> watched_;
-  std::vector<std::array<double, 12>> watchedSums_; ///< as GroupSums has them
+  std::vector<std::array<double, 12>> watchedSums_; ///< as a row of GroupSums has them
   std::vector<PairEvent> events_;
   DeepestOverlap deepest_;
 };
