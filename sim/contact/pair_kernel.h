@@ -47,6 +47,11 @@ struct ParticleView {
   double unit = 0, perUnit = 0;              ///< length of a fixed-point unit [m] and its inverse
 };
 
+/// What a pair does to one of its grains: pair << 1, and 1 where the grain is the pair's b.
+struct PairSide {
+  std::int32_t grain, entry;
+};
+
 /// Working columns of a block that no law sees.
 template <class Real> struct PairColumnsOf {
   alignas(64) Real sum[64], arm[64]; ///< sum of radii; contact arm over radius, the same for both grains
@@ -86,6 +91,8 @@ struct Kernel {
                 bool keepHistory, double* out);
   /// Adds the outputs of `count` pairs from `first`, which begin at `out`, to the sums of their grains.
   void (*add)(const ParticleView&, std::int64_t first, int count, const double* out, SumRing);
+  /// Adds, for `count` sides of pairs, what their pairs have among all outputs, to the sums of their grains.
+  void (*addSides)(const ParticleView&, const PairSide*, std::int64_t count, const double* outputs, SumRing);
   /// Kick and drift of a group: v += dt (f/m + g), x += dt v; `roll` by 5/2 dt/m (t + couple/radius). Grains
   /// that are held fast go on as they are. Leaves zeros in the sums. Mixed precision: makes the mixed records
   /// anew, too.

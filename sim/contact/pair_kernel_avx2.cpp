@@ -70,7 +70,7 @@ void write(const ParticleView& v, std::int64_t first, const ContactBlock& b, con
 } // namespace
 
 const Kernel& avx2Kernel() {
-  static const Kernel kernel{fill, write, add, move};
+  static const Kernel kernel{fill, write, add, addSides<double>, move};
   return kernel;
 }
 

@@ -121,7 +121,7 @@ void moveBoth(const ParticleView& v, std::int64_t first, int count, GroupSums s,
 } // namespace
 
 const Kernel& avx512Kernel() {
-  static const Kernel kernel{fill, write, add, moveBoth};
+  static const Kernel kernel{fill, write, add, addSides<double>, moveBoth};
   return kernel;
 }
 

@@ -94,7 +94,7 @@ void move(const ParticleView& v, std::int64_t first, int count, GroupSums s, dou
 } // namespace
 
 const Kernel& plainKernel() {
-  static const Kernel kernel{fill, write, add, move};
+  static const Kernel kernel{fill, write, add, addSides<double>, move};
   return kernel;
 }
 

@@ -319,7 +319,7 @@ std::size_t PairList::bytes() const {
       (groupEnd_.capacity() + groupReach_.capacity()) * sizeof(std::int64_t) + quiet_.capacity() +
       grid_.bytes() +
       (rows_.first.capacity() + rows_.length.capacity() + newOf_.capacity()) * sizeof(std::int32_t) +
-      crossings_.capacity() * sizeof(Crossing) + groupCrossings_.capacity() * sizeof(std::int32_t);
+      crossings_.capacity() * sizeof(PairSide) + groupCrossings_.capacity() * sizeof(std::int32_t);
   for (const Block& block : blocks_)
     total += block.rows.bytes();
   return total;

@@ -34,10 +34,6 @@ public:
   static constexpr int group = PairListing::group;
   /// Storage indices a and b; a has the smaller id (or is its own image).
   using Pair = PairListing::Pair;
-  /// A contact of a grain with one of another chunk: pair << 1, and 1 where the grain is the pair's b.
-  struct Crossing {
-    std::int32_t grain, entry;
-  };
   struct Range {
     std::int64_t begin = 0, end = 0;
   };
@@ -93,7 +89,7 @@ public:
   // longer than from the group of grains that is due to whoever has been met, so that it stays in the cache.
   std::int64_t sumRows() const { return sumRows_; } ///< a power of two, not below `group`
   /// The contacts of a group of grains with other chunks. g = index / group.
-  const std::vector<Crossing>& crossings() const { return crossings_; }
+  const std::vector<PairSide>& crossings() const { return crossings_; }
   Range groupCrossings(std::int64_t g) const { return {groupCrossings_[g], groupCrossings_[g + 1]}; }
 
   // Histories: number k of pair p is history()[(p / lane) * lane * historySize + k * lane + p % lane], in
@@ -162,7 +158,7 @@ private:
   std::int64_t size_ = 0;
   AlignedVector<Quad> memory_; ///< outputs of crossing pairs; during a build for anybody, old histories last
   std::int64_t sumRows_ = group;
-  std::vector<Crossing> crossings_;
+  std::vector<PairSide> crossings_;
   std::vector<std::int32_t> groupCrossings_; ///< the first of each group, and their number
   Range crossing_;
   std::vector<Range> chunkGrains_, chunkPairs_,

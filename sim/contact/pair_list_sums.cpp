@@ -26,7 +26,7 @@ void PairList::findCrossings(Parallel& parallel) {
         touches[c] |= 1u << d;
       }
   });
-  std::vector<std::vector<Crossing>> found(chunkCount);
+  std::vector<std::vector<PairSide>> found(chunkCount);
   parallel.forRange(chunkCount, 1, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t c = first; c < last; ++c) {
       const auto [begin, end] = chunkGrains_[c];
@@ -50,7 +50,7 @@ void PairList::findCrossings(Parallel& parallel) {
     for (std::int64_t c = first; c < last; ++c) {
       const std::int64_t from = chunkGrains_[c].begin / group, to = (chunkGrains_[c].end + group - 1) / group;
       std::vector<std::int32_t> next(groupCrossings_.begin() + from, groupCrossings_.begin() + to);
-      for (const Crossing& crossing : found[c])
+      for (const PairSide& crossing : found[c])
         crossings_[next[crossing.grain / group - from]++] = crossing;
     }
   });

@@ -7,6 +7,7 @@
 #include "sim/contact/pair_kernel.h"
 
 #include <cstring>
+#include <type_traits>
 
 namespace sandglass {
 
@@ -62,8 +63,51 @@ SANDGLASS_LOOP void addOutputs(const ParticleView& v, std::int64_t first, int co
   }
 }
 
+/// The same for one grain of a pair, wherever its output stands.
+template <int quads, class Real>
+SANDGLASS_LOOP void addSide(PairSide side, const Real* outputs, SumRing ring) {
+  using Quad = Quads<double>::One;
+  using Two = Quads<double>::Two;
+  constexpr Two signs[2] = {{1, 1, 1, 1, 1, 1, 1, 1}, {-1, -1, -1, -1, 1, 1, 1, 1}};
+  const Real* const out = outputs + std::int64_t{side.entry >> 1} * 4 * quads;
+  double* const row = ring.row(side.grain, quads);
+  if constexpr (quads > 1) {
+    typename Quads<Real>::Two both;
+    std::memcpy(&both, out, sizeof both);
+    Two sum;
+    std::memcpy(&sum, row, sizeof sum);
+    sum += signs[side.entry & 1] * __builtin_convertvector(both, Two);
+    std::memcpy(row, &sum, sizeof sum);
+  }
+  if constexpr (quads != 2) {
+    constexpr int at = 4 * (quads - 1);
+    typename Quads<Real>::One one;
+    std::memcpy(&one, out + at, sizeof one);
+    Quad sum;
+    std::memcpy(&sum, row + at, sizeof sum);
+    sum += (side.entry & 1 ? -1.0 : 1.0) * __builtin_convertvector(one, Quad);
+    std::memcpy(row + at, &sum, sizeof sum);
+  }
+}
+
+template <class Real>
+[[maybe_unused]] void addSides(const ParticleView& v, const PairSide* sides, std::int64_t count,
+                               const double* outputs, SumRing ring) {
+  const auto all = [&](auto quads) {
+    for (std::int64_t k = 0; k < count; ++k)
+      addSide<quads>(sides[k], reinterpret_cast<const Real*>(outputs), ring);
+  };
+  if (v.outputQuads == 1)
+    all(std::integral_constant<int, 1>());
+  else if (v.outputQuads == 2)
+    all(std::integral_constant<int, 2>());
+  else
+    all(std::integral_constant<int, 3>());
+}
+
 /// For the kernel of a width.
-[[maybe_unused]] void add(const ParticleView& v, std::int64_t first, int count, const double* out, SumRing ring) {
+[[maybe_unused]] void add(const ParticleView& v, std::int64_t first, int count, const double* out,
+                          SumRing ring) {
   if (v.outputQuads == 1)
     addOutputs<1>(v, first, count, out, ring);
   else if (v.outputQuads == 2)

@@ -130,6 +130,7 @@ FusedLoop mixedLoopAvx2(const FusedLaws& laws) {
 
 Kernel mixedKernelAvx2() {
   Kernel kernel = avx2Kernel();
+  kernel.addSides = addSides<float>;
   kernel.move = moveAndNarrow;
   kernel.narrow = narrow;
   return kernel;

@@ -189,6 +189,7 @@ FusedLoop mixedLoopAvx512(const FusedLaws& laws, bool fast) {
 
 Kernel mixedKernelAvx512() {
   Kernel kernel = avx512Kernel();
+  kernel.addSides = addSides<float>;
   kernel.move = moveBoth;
   kernel.narrow = narrow;
   return kernel;

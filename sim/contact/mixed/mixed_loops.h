@@ -20,7 +20,7 @@ FusedLoop mixedLoopPlain(const FusedLaws& laws);
 FusedLoop mixedLoopAvx2(const FusedLaws& laws);
 FusedLoop mixedLoopAvx512(const FusedLaws& laws, bool fast);
 
-/// A kernel that keeps mixed records; the rest is that of double.
+/// A kernel that adds outputs of single precision and keeps mixed records; the rest is that of double.
 Kernel mixedKernelPlain();
 Kernel mixedKernelAvx2();
 Kernel mixedKernelAvx512();

@@ -83,6 +83,7 @@ FusedLoop mixedLoopPlain(const FusedLaws& laws) {
 
 Kernel mixedKernelPlain() {
   Kernel kernel = plainKernel();
+  kernel.addSides = addSides<float>;
   kernel.move = moveAndNarrow;
   kernel.narrow = narrow;
   return kernel;

@@ -17,8 +17,8 @@ void MixedRecords::bind(const GrainStore& grains, const PairList& list, Particle
   view.unit = std::ldexp(1.0, exponent - 30);
   view.perUnit = std::ldexp(1.0, 30 - exponent);
   records_.assign((n + 2) * numbers, 0);
-  // The phantoms: half way round from each other, and of no radius or mass that could make a quotient infinite:
-  // what they do to each other is added up, and must be zeros.
+  // The phantoms: half way round from each other, and of no radius or mass that could make a quotient
+  // infinite: what they do to each other is added up, and must be zeros.
   for (std::size_t i = n; i < n + 2; ++i) {
     records_[i * numbers] = i == n ? 0 : 1 << 30;
     records_[i * numbers + 3] = 1 << 20;

@@ -35,31 +35,13 @@ void ParticleLoop::bind() {
   travel_.begin(grains_);
 }
 
-/// What acts on a group of grains beyond the pairs of its chunk.
-void ParticleLoop::completeSums(std::int64_t g, std::int64_t last, WallContacts::Sweep& atWalls,
-                                GroupSums sums) const {
-  const std::int64_t first = g * group;
-  const ParticleView& view = pairs_.view();
-  const PairList::Range crossings = list_.groupCrossings(g);
-  for (std::int64_t e = crossings.begin; e < crossings.end; ++e) {
-    const PairList::Crossing& crossing = list_.crossings()[e];
-    double* const sum = sums.at(crossing.grain - first);
-    const double* const out = list_.crossingOutput() + (crossing.entry >> 1) * list_.outputStride();
-    const double sign = crossing.entry & 1 ? -1.0 : 1.0;
-    const auto add = [&](const auto* numbers) {
-      for (int q = 0; q < view.outputQuads; ++q) {
-        const double factor = q == 1 ? 1.0 : sign;
-        for (int k = 0; k < 4; ++k) // one register
-          sum[4 * q + k] += factor * numbers[4 * q + k];
-      }
-    };
-    view.mixed ? add(reinterpret_cast<const float*>(out)) : add(out);
-  }
-  atWalls_.addTo(sums, grains_, walls_, first, last, atWalls);
-  across_.addTo(sums, grains_, first, last);
+void ParticleLoop::addWalls(std::int64_t g, std::int64_t last, WallContacts::Sweep& atWalls,
+                            GroupSums sums) const {
+  atWalls_.addTo(sums, grains_, walls_, g * group, last, atWalls);
+  across_.addTo(sums, grains_, g * group, last);
 }
 
-/// Calls done(group, end of its grains, their sums), which leaves zeros in the sums.
+/// Calls done(group, end of its grains, their sums over all pairs), which leaves zeros in the sums.
 template <class Done>
 void ParticleLoop::sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done) {
   const PairList::Range grains = list_.chunkGrains(chunk), pairs = list_.chunkPairs(chunk);
@@ -80,6 +62,9 @@ void ParticleLoop::sweep(int chunk, double dt, bool keepHistory, PairForces::Scr
                       from + (to - from) * (next - begin) / (list_.groupEnd(g) - begin));
       next = end;
     }
+    const PairList::Range crossings = list_.groupCrossings(g);
+    pairs_.kernel().addSides(pairs_.view(), list_.crossings().data() + crossings.begin,
+                             crossings.end - crossings.begin, list_.crossingOutput(), sums);
     done(g, std::min(first + group, grains.end), GroupSums{sums.row(first, quads), 4 * quads});
   }
   scratch.swept = true;
@@ -117,7 +102,7 @@ ParticleLoop::Report ParticleLoop::step(double dt, const Vec3& gravity, double s
       const PairList::Range range = list_.chunkGrains(static_cast<int>(c));
       atWalls_.begin(atWalls, grains_, walls_, range.begin, range.end, dt, false, atWalls_.tallied());
       sweep(static_cast<int>(c), dt, false, scratch, [&](std::int64_t g, std::int64_t last, GroupSums sums) {
-        completeSums(g, last, atWalls, sums);
+        addWalls(g, last, atWalls, sums);
         if (!watched_.empty()) keepWatched(g * group, last, sums);
         if (fields_.any())
           fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, true);
@@ -176,7 +161,7 @@ void ParticleLoop::forces(double dt, const Vec3& gravity, std::vector<Quad>& for
       const PairList::Range range = list_.chunkGrains(static_cast<int>(c));
       atWalls_.begin(atWalls, grains_, walls_, range.begin, range.end, dt, true, true);
       sweep(static_cast<int>(c), dt, true, scratch, [&](std::int64_t g, std::int64_t last, GroupSums sums) {
-        completeSums(g, last, atWalls, sums);
+        addWalls(g, last, atWalls, sums);
         if (fields_.any())
           fields_.addTo(sums, grains_, g * group, last, dt, gravity, pairs_.view().outputQuads > 2, false);
         for (std::int64_t i = g * group; i < last; ++i) {

@@ -55,8 +55,7 @@ public:
 
 private:
   void keepWatched(std::int64_t first, std::int64_t last, GroupSums sums);
-  void completeSums(std::int64_t group, std::int64_t last, WallContacts::Sweep& atWalls,
-                    GroupSums sums) const;
+  void addWalls(std::int64_t group, std::int64_t last, WallContacts::Sweep& atWalls, GroupSums sums) const;
   template <class Done>
   void sweep(int chunk, double dt, bool keepHistory, PairForces::Scratch& scratch, Done&& done);
   void crossing(double dt, bool keepHistory);
