@@ -64,11 +64,11 @@ void DemSolver::setGravity(const Vec3& gravity) {
   // Velocities are half a step behind: those of the full step stay when the kick that leads there is changed.
   const Vec3 kick = halfStep() * (gravity_ - gravity);
   for (std::size_t i = 0; i < grains_.size(); ++i) {
+    if (heldFast(i)) continue;
     Quad& v = grains_.motion[i];
     v = {v.x + kick.x(), v.y + kick.y(), v.z + kick.z(), v.w};
   }
   gravity_ = gravity;
-  frozen_.hold(grains_);
   atFullStep_.valid = false;
 }
 
@@ -80,6 +80,7 @@ void DemSolver::setField(const std::string& name, double factor) {
   fields_.setFactor(name, factor);
   evaluate(after, torqueAfter);
   for (std::size_t i = 0; i < grains_.size(); ++i) {
+    if (heldFast(i)) continue;
     Quad& v = grains_.motion[i];
     const Vec3 kick = halfStep() * v.w * (before[i].vec() - after[i].vec());
     v = {v.x + kick.x(), v.y + kick.y(), v.z + kick.z(), v.w};
@@ -89,7 +90,6 @@ void DemSolver::setField(const std::string& name, double factor) {
         halfStep() * grains_.place[i].w / grains_.inertia(i) * (torqueBefore[i].vec() - torqueAfter[i].vec());
     u = {u.x + turn.x(), u.y + turn.y(), u.z + turn.z(), u.w};
   }
-  frozen_.hold(grains_);
   atFullStep_.valid = false;
 }
 

@@ -66,7 +66,7 @@ FramePtr DemSolver::frame() const {
     vectors(quantity::spin, [&](std::int32_t i) { return full.spin[i]; });
   if (wants(quantity::force))
     vectors(quantity::force, [&](std::int32_t i) {
-      if (frozen_.holds(grains_.species[i])) return full.force[i].vec(); // nothing pulls it down
+      if (heldFast(i)) return full.force[i].vec(); // nothing pulls it down
       return Vec3(full.force[i].vec() + grains_.mass(i) * gravity_);
     });
   if (wants(quantity::residenceTime))
@@ -125,7 +125,7 @@ Energies DemSolver::energies() const {
   const Vec3 extent = scene_.domain.upper - scene_.domain.lower;
   const FullStep& full = fullStep(false);
   for (std::int32_t i : idOrder()) {
-    if (frozen_.holds(grains_.species[i])) continue; // nothing can change what it has
+    if (heldFast(i)) continue; // nothing can change what it has
     const double m = grains_.mass(i);
     Vec3 x = grains_.place[i].vec();
     if (grains_.imaged)
@@ -142,7 +142,7 @@ Energies DemSolver::energies() const {
 }
 
 double DemSolver::massOf(std::int32_t i) const {
-  if (!frozen_.holds(grains_.species[i])) return grains_.mass(i);
+  if (!heldFast(i)) return grains_.mass(i);
   const double r = grains_.place[i].w;
   return 4.0 / 3.0 * std::numbers::pi * r * r * r *
          scene_.material(scene_.species[grains_.species[i]].material).density;
@@ -171,7 +171,7 @@ std::vector<GrainSeed> DemSolver::present() const {
 double DemSolver::greatestSpeed() const {
   double square = 0;
   for (std::size_t i = 0; i < grains_.size(); ++i)
-    if (!frozen_.holds(grains_.species[i])) square = std::max(square, grains_.motion[i].vec().squaredNorm());
+    if (!heldFast(i)) square = std::max(square, grains_.motion[i].vec().squaredNorm());
   return std::sqrt(square);
 }
 

@@ -150,7 +150,7 @@ const DemSolver::FullStep& DemSolver::fullStep(bool withForces) const {
   if (withForces) evaluate(full.force, full.torque);
   full.forcesValid = withForces;
   for (std::size_t i = 0; i < n; ++i) {
-    if (scene_.accuracy.semiImplicit || frozen_.holds(grains_.species[i])) { // as they are
+    if (scene_.accuracy.semiImplicit || heldFast(i)) { // as they are
       full.velocity[i] = grains_.motion[i].vec();
       if (grains_.turning) full.spin[i] = grains_.spin(i);
       continue;
@@ -196,7 +196,7 @@ void DemSolver::prepare() {
   std::sort(newcomers_.begin(), newcomers_.end());
   std::vector<std::int64_t> fresh;
   for (std::size_t i = 0; !newcomers_.empty() && i < grains_.size(); ++i)
-    if (std::binary_search(newcomers_.begin(), newcomers_.end(), grains_.id[i]))
+    if (std::binary_search(newcomers_.begin(), newcomers_.end(), grains_.id[i]) && !heldFast(i))
       fresh.push_back(static_cast<std::int64_t>(i));
   newcomers_.clear();
   // Newcomers have velocities of the full step: half a step back. Forces depend on the velocities sought, so
@@ -218,7 +218,6 @@ void DemSolver::prepare() {
       const Vec3 rolled = u.vec() - halfStep() * grains_.place[i].w / grains_.inertia(i) * torque[i].vec();
       grains_.roll[i] = {rolled.x(), rolled.y(), rolled.z(), u.w};
     }
-    frozen_.hold(grains_);
   }
   atFullStep_.valid = false;
 }
@@ -243,6 +242,7 @@ void DemSolver::damp() {
   parallel_.forRange(static_cast<std::int64_t>(grains_.size()), grainsPerPiece,
                      [&](std::int64_t first, std::int64_t last) {
                        for (std::int64_t i = first; i < last; ++i) {
+                         if (heldFast(i)) continue;
                          slow(grains_.motion[i]);
                          if (grains_.turning) slow(grains_.roll[i]);
                        }
@@ -260,7 +260,6 @@ void DemSolver::stepOnce() {
   DeepestOverlap deepest;
   across_.step(grains_, dt_, parallel_, deepest);
   if (fields_.any()) fields_.look(grains_, list_, time(), parallel_);
-  if (frozen_.any()) frozen_.advance(dt_);
   const auto report =
       loop_.step(dt_, gravity_, scene_.accuracy.maximumTravel * smallestRadius_ / dt_, events, deepest);
   wallContacts_.tally(walls_, step_ == 0 ? 0.0 : dt_); // the work since the step before
@@ -269,7 +268,6 @@ void DemSolver::stepOnce() {
   if (!events.empty()) applyEvents(events);
   if (drag_ > 0) {
     damp();
-    frozen_.hold(grains_);
     pairForces_.refresh();
   }
   if (frozen_.any()) frozen_.tally(loop_, step_ == 0 ? 0.0 : dt_);

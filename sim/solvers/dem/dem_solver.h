@@ -101,6 +101,7 @@ private:
   std::vector<std::int32_t> idOrder() const;
   /// [s] from the velocities in store to those of the full step.
   double halfStep() const { return scene_.accuracy.semiImplicit ? 0.0 : 0.5 * dt_; }
+  bool heldFast(std::size_t i) const { return frozen_.holds(grains_.species[i]); }
   double massOf(std::int32_t i) const; ///< [kg] of its material, also when it is frozen
   GrainSeed seedOf(std::int32_t i) const;
   Vec3 wrapped(Vec3 x) const;

@@ -21,19 +21,15 @@ public:
   explicit FrozenGrains(const Scene& scene);
 
   bool any() const { return any_; }
+  std::size_t count() const { return count_; } ///< grains held fast
   bool holds(int species) const { return any_ && frozen_[species]; }
-  std::size_t count() const { return held_.size(); }
 
-  /// After grains came, left or changed places: takes the motion that they have now as the one to keep.
+  /// After grains came, left or changed places: finds those that move or turn, as they will always do.
   void capture(const GrainStore& grains);
   /// Storage indices of those that move or turn, whose forces tally() asks the loop for.
   std::vector<std::int32_t> moving() const;
-  /// Gives them back what capture() found, at the places where advance() has brought them.
-  void hold(GrainStore& grains) const;
-  /// Before a step of the particle loop: where it will leave them.
-  void advance(double dt);
-  /// After it: adds up the work of their contacts. `worked`: the time since the step before [s]; leap-frog
-  /// integration makes it dt times the mean of the powers at its ends, as for walls.
+  /// After a step of the particle loop: adds up the work of their contacts. `worked`: the time since the step
+  /// before [s]; leap-frog integration makes it dt times the mean of the powers at its ends, as for walls.
   void tally(const ParticleLoop& loop, double worked);
 
   /// Work that they have done on other grains [J] up to a full step with these contact forces and torques.
@@ -44,16 +40,15 @@ public:
   void setState(const std::vector<double>& state);
 
 private:
-  struct Held {
+  struct Moving {
     std::int32_t grain; ///< storage index
-    Quad place, motion, roll;
-    bool moves() const { return motion.vec() != Vec3::Zero() || roll.vec() != Vec3::Zero(); }
+    Quad motion, roll;
   };
 
   std::vector<bool> frozen_; ///< by species
   bool any_ = false;
-  std::vector<Held> held_;          ///< in storage order
-  std::vector<std::size_t> moving_; ///< which of them move or turn
+  std::size_t count_ = 0;
+  std::vector<Moving> moving_; ///< in storage order
   double work_ = 0, power_ = 0;
 };
 
