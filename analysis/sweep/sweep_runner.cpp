@@ -51,6 +51,120 @@ SweepValue consensus(const std::vector<const SweepRow*>& runs, std::size_t colum
   return best;
 }
 
+/// The runs of a table that wait, worked off by some threads; the thread that calls tells of progress.
+class Crew {
+public:
+  Crew(SweepTable& table, const SweepRunnerOptions& options, std::atomic<bool>& stop)
+      : table_(table), plan_(table.plan()), options_(options), stop_(stop) {
+    std::map<int, SweepPoint> points;
+    for (auto& point : table.points())
+      points[point.id] = std::move(point);
+    for (const auto& row : table.rows()) {
+      if ((row.run - 1) % options.shares != options.share) continue;
+      ++progress_.runs;
+      progress_.done += row.status == SweepStatus::done;
+      progress_.failed += row.status == SweepStatus::failed;
+      if (row.status != SweepStatus::waiting) continue;
+      auto job = std::make_unique<Job>();
+      job->run = row.run;
+      job->seed = row.seed;
+      job->point = points.at(row.point);
+      jobs_.push_back(std::move(job));
+    }
+  }
+
+  /// Until all are over or given up. Rethrows what a worker met.
+  void work() {
+    if (jobs_.empty()) return;
+    const auto cores = std::max(1u, std::thread::hardware_concurrency());
+    const int workers = static_cast<int>(std::min<std::size_t>(
+        jobs_.size(), options_.threads > 0 ? static_cast<unsigned>(options_.threads) : cores));
+    std::vector<std::thread> pool;
+    for (int k = 0; k < workers; ++k)
+      pool.emplace_back([this] { workOn(); });
+    {
+      std::unique_lock lock(mutex_);
+      const auto idle = [&] { return idle_ == workers; };
+      while (!changed_.wait_for(lock, std::chrono::milliseconds(100), idle))
+        tell(lock);
+      tell(lock);
+    }
+    for (auto& thread : pool)
+      thread.join();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+private:
+  void workOn() {
+    while (Job* job = next()) {
+      const auto outcome =
+          runPoint(plan_, job->point, job->seed, stop_, [job](double f) { job->fraction = f; });
+      const std::lock_guard lock(mutex_);
+      --progress_.going;
+      if (!outcome) continue;
+      try {
+        record(*job, *outcome);
+      } catch (...) {
+        failure_ = std::current_exception();
+        stop_ = true;
+      }
+    }
+    const std::lock_guard lock(mutex_);
+    ++idle_;
+    changed_.notify_all();
+  }
+
+  Job* next() {
+    const std::lock_guard lock(mutex_);
+    if (stop_ || taken_ == jobs_.size()) return nullptr;
+    ++progress_.going;
+    return jobs_[taken_++].get();
+  }
+
+  void record(Job& job, const SweepOutcome& outcome) {
+    table_.record(job.run, outcome);
+    job.over = true;
+    if (outcome.status != SweepStatus::failed) {
+      ++progress_.done;
+      if (plan_.refineLevels > 0) table_.column(plan_.refineBy); // refuses now, not after the last run
+      return;
+    }
+    ++progress_.failed;
+    if (progress_.failed <= sentencesTold)
+      report(options_.log, LogLevel::warning,
+             fmt::format("run {} (point {}, seed {}) failed: {}", job.run, job.point.id, job.seed,
+                         outcome.fault));
+  }
+
+  /// Lets go of the lock while the listener is at it.
+  void tell(std::unique_lock<std::mutex>& lock) {
+    double share = 0;
+    for (const auto& job : jobs_)
+      share += job->over ? 1.0 : job->fraction.load();
+    const auto before = static_cast<double>(progress_.runs - jobs_.size());
+    progress_.fraction = (before + share) / static_cast<double>(progress_.runs);
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    progress_.secondsLeft = share > 0.05 ? seconds * (static_cast<double>(jobs_.size()) - share) / share : -1;
+    const SweepProgress now = progress_;
+    lock.unlock();
+    if (options_.onProgress) options_.onProgress(now);
+    lock.lock();
+  }
+
+  SweepTable& table_;
+  const SweepPlan& plan_;
+  const SweepRunnerOptions& options_;
+  std::atomic<bool>& stop_;
+  const Clock::time_point start_ = Clock::now();
+  std::vector<std::unique_ptr<Job>> jobs_;
+  std::mutex mutex_; // of the table, of what follows
+  std::condition_variable changed_;
+  SweepProgress progress_;
+  std::size_t taken_ = 0;
+  int idle_ = 0;
+  std::exception_ptr failure_;
+};
+
 } // namespace
 
 SweepRunner::SweepRunner(SweepTable& table, SweepRunnerOptions options)
@@ -94,98 +208,7 @@ bool SweepRunner::refine(SweepTable& table) {
 }
 
 bool SweepRunner::work() {
-  const SweepPlan& plan = table_.plan();
-  std::map<int, SweepPoint> points;
-  for (auto& point : table_.points())
-    points[point.id] = std::move(point);
-  std::vector<std::unique_ptr<Job>> jobs;
-  SweepProgress progress;
-  for (const auto& row : table_.rows()) {
-    if ((row.run - 1) % options_.shares != options_.share) continue;
-    ++progress.runs;
-    progress.done += row.status == SweepStatus::done;
-    progress.failed += row.status == SweepStatus::failed;
-    if (row.status != SweepStatus::waiting) continue;
-    auto job = std::make_unique<Job>();
-    job->run = row.run;
-    job->seed = row.seed;
-    job->point = points.at(row.point);
-    jobs.push_back(std::move(job));
-  }
-  if (jobs.empty()) return !stop_;
-  const std::size_t before = progress.runs - jobs.size();
-
-  std::mutex mutex; // of the table, of what follows
-  std::condition_variable changed;
-  std::size_t taken = 0;
-  int idle = 0;
-  std::exception_ptr failure;
-  const auto worker = [&] {
-    for (;;) {
-      Job* job = nullptr;
-      {
-        const std::lock_guard lock(mutex);
-        if (!stop_ && taken < jobs.size()) {
-          job = jobs[taken++].get();
-          ++progress.going;
-        }
-      }
-      if (!job) break;
-      const auto outcome =
-          runPoint(plan, job->point, job->seed, stop_, [job](double f) { job->fraction = f; });
-      const std::lock_guard lock(mutex);
-      --progress.going;
-      if (!outcome) continue;
-      try {
-        table_.record(job->run, *outcome);
-        job->over = true;
-        if (outcome->status == SweepStatus::failed) {
-          ++progress.failed;
-          if (progress.failed <= sentencesTold)
-            report(options_.log, LogLevel::warning,
-                   fmt::format("run {} (point {}, seed {}) failed: {}", job->run, job->point.id, job->seed,
-                               outcome->fault));
-        } else {
-          ++progress.done;
-          if (plan.refineLevels > 0) table_.column(plan.refineBy); // refuses now, not after the last run
-        }
-      } catch (...) {
-        failure = std::current_exception();
-        stop_ = true;
-      }
-    }
-    const std::lock_guard lock(mutex);
-    ++idle;
-    changed.notify_all();
-  };
-  const auto cores = std::max(1u, std::thread::hardware_concurrency());
-  const int workers = static_cast<int>(std::min<std::size_t>(
-      jobs.size(), options_.threads > 0 ? static_cast<unsigned>(options_.threads) : cores));
-  std::vector<std::thread> pool;
-  for (int k = 0; k < workers; ++k)
-    pool.emplace_back(worker);
-  const auto start = Clock::now();
-  {
-    std::unique_lock lock(mutex);
-    const auto tell = [&] {
-      double share = 0;
-      for (const auto& job : jobs)
-        share += job->over ? 1.0 : job->fraction.load();
-      progress.fraction = (static_cast<double>(before) + share) / static_cast<double>(progress.runs);
-      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      progress.secondsLeft = share > 0.05 ? seconds * (static_cast<double>(jobs.size()) - share) / share : -1;
-      const SweepProgress now = progress;
-      lock.unlock();
-      if (options_.onProgress) options_.onProgress(now);
-      lock.lock();
-    };
-    while (!changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return idle == workers; }))
-      tell();
-    tell();
-  }
-  for (auto& thread : pool)
-    thread.join();
-  if (failure) std::rethrow_exception(failure);
+  Crew(table_, options_, stop_).work();
   return !stop_;
 }
 

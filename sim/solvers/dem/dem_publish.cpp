@@ -1,14 +1,9 @@
-// What the soft-sphere solver shows of itself: frames, energies, walls, and its state for checkpoints.
+// What the soft-sphere solver shows of itself: frames, energies, walls.
 
-#include "sim/base/error.h"
-#include "sim/base/tiny_numbers.h"
 #include "sim/solvers/dem/dem_solver.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <tuple>
 
@@ -75,49 +70,64 @@ FramePtr DemSolver::frame() const {
   if (wants(quantity::life))
     scalars(quantity::life, [&](std::int32_t i) { return static_cast<double>(lives_.life(grains_.id[i])); });
   frame->walls = wallsNow(wallLoads_);
-  if (!scene_.output.contacts || stale_) return frame;
+  if (scene_.output.contacts && !stale_) frame->contacts = contactsNow();
+  return frame;
+}
 
+namespace {
+
+/// What contact `c` of a block shows: normal, force, overlap.
+FrameContact contactOf(const ContactBlock& b, int c) {
+  FrameContact contact;
+  contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
+  contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
+  contact.overlap = b.overlap[c];
+  return contact;
+}
+
+/// Where grains a (at x) and b touch: between their surfaces in proportion to the radii [m].
+Vec3 pointBetween(const Vec3& x, double radiusA, double radiusB, const FrameContact& contact) {
+  const double sum = radiusA + radiusB;
+  return x - radiusA * (sum - contact.overlap) / sum * contact.normal;
+}
+
+} // namespace
+
+std::vector<FrameContact> DemSolver::contactsNow() const {
+  std::vector<FrameContact> contacts;
   pairForces_.visitContacts(dt_, [&](std::int64_t p, const ContactBlock& b, int c) {
-    FrameContact contact;
+    FrameContact contact = contactOf(b, c);
     const auto [i, j] = list_.pairs()[p];
     contact.a = grains_.id[i];
     contact.b = grains_.id[j];
     contact.image = list_.image(p);
-    contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
-    contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
-    contact.overlap = b.overlap[c];
-    const double radius = grains_.place[i].w, sum = radius + grains_.place[j].w;
-    contact.point = wrapped(grains_.place[i].vec() - radius * (sum - b.overlap[c]) / sum * contact.normal);
-    frame->contacts.push_back(contact);
+    contact.point =
+        wrapped(pointBetween(grains_.place[i].vec(), grains_.place[i].w, grains_.place[j].w, contact));
+    contacts.push_back(contact);
   });
   across_.visitContacts(grains_, dt_, [&](const SectorContacts::Contact& pair, const ContactBlock& b, int c) {
-    FrameContact contact;
+    FrameContact contact = contactOf(b, c);
     contact.a = grains_.id[pair.a];
     contact.b = grains_.id[pair.b];
     contact.image = {pair.turn, 0, 0};
-    contact.normal = {b.nx[c], b.ny[c], b.nz[c]};
-    contact.force = b.normalForce[c] * contact.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
-    contact.overlap = b.overlap[c];
-    const double sum = b.radiusA[c] + b.radiusB[c];
-    contact.point = grains_.place[pair.a].vec() - b.radiusA[c] * (sum - b.overlap[c]) / sum * contact.normal;
-    frame->contacts.push_back(contact);
+    contact.point = pointBetween(grains_.place[pair.a].vec(), b.radiusA[c], b.radiusB[c], contact);
+    contacts.push_back(contact);
   });
-  std::sort(frame->contacts.begin(), frame->contacts.end(), [](const FrameContact& s, const FrameContact& t) {
+  std::sort(contacts.begin(), contacts.end(), [](const FrameContact& s, const FrameContact& t) {
     return std::tie(s.a, s.b, s.image) < std::tie(t.a, t.b, t.image);
   });
   wallContacts_.visitContacts(
       grains_, walls_,
       [&](std::int32_t i, std::int32_t wall, const ContactBlock& b, int c, const WallTouch& touch) {
-        FrameContact contact;
+        FrameContact contact = contactOf(b, c);
         contact.a = grains_.id[i];
         contact.wall = wall;
         contact.normal = touch.normal;
-        contact.overlap = b.overlap[c];
         contact.force = b.normalForce[c] * touch.normal + Vec3(b.ftx[c], b.fty[c], b.ftz[c]);
         contact.point = wrapped(grains_.place[i].vec() - touch.distance * touch.normal);
-        frame->contacts.push_back(contact);
+        contacts.push_back(contact);
       });
-  return frame;
+  return contacts;
 }
 
 Energies DemSolver::energies() const {
@@ -198,168 +208,6 @@ double DemSolver::wallWork() const {
   for (const WallTally& tally : full.tallies)
     sum += tally.work;
   return sum + fields_.work();
-}
-
-namespace {
-
-template <class T, class Allocator>
-void put(Solver::State& state, const std::string& name, const std::vector<T, Allocator>& values) {
-  auto& bytes = state[name];
-  bytes.resize(values.size() * sizeof(T));
-  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-}
-
-template <class T, class Allocator>
-void get(const Solver::State& state, const std::string& name, std::vector<T, Allocator>& values) {
-  const auto it = state.find(name);
-  if (it == state.end() || it->second.size() % sizeof(T) != 0)
-    throw InputError(fmt::format(
-        "the checkpoint lacks '{}' or holds it in another size: it was written by another version", name));
-  values.resize(it->second.size() / sizeof(T));
-  if (!values.empty()) std::memcpy(values.data(), it->second.data(), it->second.size());
-}
-
-struct WallState {
-  std::int64_t active;
-  MotionMarks marks;
-  double allowance, listedTime;
-  WallTally tally;
-};
-
-struct Counters {
-  std::int64_t step, nextId;
-  Flow flow;
-};
-
-} // namespace
-
-Solver::State DemSolver::save() {
-  prepare(); // a list that is due now would be built before the next step anyway
-  State s;
-  put(s, "records", grains_.records());
-  put(s, "listed", grains_.listed);
-  put(s, "id", grains_.id);
-  put(s, "species", grains_.species);
-  put(s, "material", grains_.material);
-  put(s, "image", grains_.image);
-  for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
-    put(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
-  put(s, "pairs.history", list_.histories());
-  put(s, "pairs.live", list_.liveArray());
-  if (across_.used()) put(s, "across.history", across_.historyArray());
-  put(s, "groups.moved", loop_.travel().moved());
-  put(s, "walls.history", wallContacts_.histories());
-  put(s, "walls.feature", wallContacts_.features());
-  std::vector<WallState> walls;
-  for (const SolverWall& w : walls_)
-    walls.push_back({w.active, w.marks, w.allowance, w.listedTime, w.tally});
-  put(s, "walls.state", walls);
-  if (frozen_.any()) put(s, "frozen", frozen_.state());
-  if (fields_.any()) {
-    put(s, "fields.factors", fields_.factors());
-    put(s, "fields.work", fields_.workState());
-  }
-  put(s, "lives", lives_.lives());
-  put(s, "entries", lives_.entries());
-  put(s, "gravity", std::vector<double>{gravity_.x(), gravity_.y(), gravity_.z()});
-  put(s, "counters", std::vector<Counters>{{step_, nextId_, flow_}});
-  return s;
-}
-
-void DemSolver::load(const State& s) {
-  const TinyNumbersAsZero tiny;
-  std::vector<WallState> walls;
-  get(s, "walls.state", walls);
-  if (walls.size() != walls_.size())
-    throw InputError(fmt::format("the checkpoint has {} walls and the scene {}; it belongs to another scene",
-                                 walls.size(), walls_.size()));
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    SolverWall& wall = walls_[w];
-    wall.active = walls[w].active != 0;
-    wall.marks = walls[w].marks;
-    wall.allowance = walls[w].allowance;
-    wall.listedTime = walls[w].listedTime;
-    wall.tally = walls[w].tally;
-    wall.pose = poseAt(wall, wall.listedTime); // until the list is made
-  }
-  get(s, "listed", grains_.listed);
-  get(s, "id", grains_.id);
-  get(s, "species", grains_.species);
-  get(s, "material", grains_.material);
-  get(s, "image", grains_.image);
-  for (std::size_t q = 0; q < grains_.quantities.size(); ++q)
-    get(s, "quantity." + grains_.quantityNames[q], grains_.quantities[q]);
-
-  AlignedVector<Quad> records;
-  get(s, "records", records);
-  if (records.size() != (grains_.size() + 2) * grains_.quadsPerRecord())
-    throw InputError(
-        "the checkpoint's grain records do not fit the scene; it belongs to another scene or version");
-  grains_.setRecords(records);
-  checkPromisedSizes();
-
-  // The list as it was: built from the positions that it was built from. The sort is stable, so the storage
-  // order stays, and histories fit their pairs again.
-  for (std::size_t i = 0; i < grains_.size(); ++i) {
-    const Quad& l = grains_.listed[i];
-    grains_.place[i] = {l.x, l.y, l.z, grains_.place[i].w};
-  }
-  list_.build(grains_, laws_.range(), parallel_);
-  if (across_.used()) across_.build(grains_, laws_.range(), list_);
-  wallContacts_.build(grains_, walls_, laws_.range(), parallel_);
-  if (fields_.any()) fields_.list(grains_, list_, parallel_);
-  grains_.setRecords(std::move(records));
-  loop_.bind();
-  const auto misfit = [](const char* name) {
-    throw InputError(fmt::format(
-        "the checkpoint's '{}' does not fit the scene; it belongs to another scene or version", name));
-  };
-  const auto restore = [&](const char* name, auto& array) {
-    const std::size_t expected = array.size();
-    get(s, name, array);
-    if (array.size() != expected) misfit(name);
-  };
-  std::vector<double> histories;
-  get(s, "pairs.history", histories);
-  if (!list_.setHistories(histories)) misfit("pairs.history");
-  restore("pairs.live", list_.liveArray());
-  if (across_.used()) restore("across.history", across_.historyArray());
-  restore("groups.moved", loop_.travel().moved());
-  get(s, "walls.history", histories);
-  if (!wallContacts_.setHistories(histories)) misfit("walls.history");
-  std::vector<std::int32_t> features;
-  get(s, "walls.feature", features);
-  if (!wallContacts_.setFeatures(features)) misfit("walls.feature");
-  frozen_.capture(grains_);
-  loop_.watch(frozen_.moving());
-  if (frozen_.any()) {
-    std::vector<double> frozen;
-    get(s, "frozen", frozen);
-    frozen_.setState(frozen);
-  }
-  if (fields_.any()) {
-    std::vector<double> factors, work;
-    get(s, "fields.factors", factors);
-    get(s, "fields.work", work);
-    fields_.setFactors(factors);
-    fields_.setWorkState(work);
-  }
-  get(s, "lives", lives_.lives());
-  get(s, "entries", lives_.entries());
-  std::vector<double> gravity;
-  get(s, "gravity", gravity);
-  gravity_ = {gravity.at(0), gravity.at(1), gravity.at(2)};
-  std::vector<Counters> counters;
-  get(s, "counters", counters);
-  step_ = counters.at(0).step;
-  nextId_ = counters.at(0).nextId;
-  flow_ = counters.at(0).flow;
-  stale_ = false;
-  placeWalls(walls_, time(), 0.0);
-  atFullStep_.valid = false;
-  for (std::size_t i = 0; i < grains_.size(); ++i)
-    smallestRadius_ = std::min(smallestRadius_, grains_.place[i].w);
-  pairForces_.watchOverlap(scene_.accuracy.maximumOverlap, smallestRadius_);
 }
 
 } // namespace sandglass

@@ -107,6 +107,10 @@ private:
   Vec3 wrapped(Vec3 x) const;
 
   std::vector<FrameWall> wallsNow(bool loads) const;
+  std::vector<FrameContact> contactsNow() const; ///< with grains in the order of their ids, then with walls
+  void loadWalls(const State& state);
+  void loadGrains(const State& state); ///< and their lists
+  void loadHistories(const State& state);
 
   Scene scene_;
   bool wallLoads_; ///< in frames
