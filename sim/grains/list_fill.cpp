@@ -25,9 +25,9 @@ std::vector<GrainSeed> fillFromList(const FillContext& context) {
     g.position = context.open.wrapped(p.vectors("positions")[i]);
     g.velocity = p.vectors("velocities")[i];
     g.spin = p.vectors("spins")[i];
-    const auto fault = [&](const std::string& what) {
-      faults.push_back(fmt::format("has grain {} at ({:.6g}, {:.6g}, {:.6g}) m {}; move it", i + 1,
-                                   g.position.x(), g.position.y(), g.position.z(), what));
+    const auto fault = [&](const std::string& what, const char* remedy = "move it") {
+      faults.push_back(fmt::format("has grain {} at ({:.6g}, {:.6g}, {:.6g}) m {}; {}", i + 1, g.position.x(),
+                                   g.position.y(), g.position.z(), what, remedy));
     };
     if (const std::string obstacle = context.open.obstacle(g.position, g.radius, mayOverlap);
         !obstacle.empty())
@@ -36,6 +36,10 @@ std::vector<GrainSeed> fillFromList(const FillContext& context) {
       fault(fmt::format(
           "overlapping another grain by {:.3g} of the smaller radius, more than maximum_overlap = {}",
           overlap, mayOverlap));
+    else if (const std::string wall = context.open.squeezedBy(g.position, g.radius); !wall.empty())
+      fault(fmt::format("of a diameter of {:.6g} m, which the space at the wall '{}' is too narrow for",
+                        2 * g.radius, wall),
+            "move it, make it smaller or widen the space");
     context.placed.add(g.position, g.radius);
     grains.push_back(g);
   }

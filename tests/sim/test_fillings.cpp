@@ -2,6 +2,7 @@
 #include "sim/grains/seeding.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
@@ -311,6 +312,45 @@ TEST_CASE("wide flat domains take no undue memory", "[filling]") {
       boxScene(R"(["x", "y"])", "[[fill]]\nkind = \"random\"\nnumber = 1000\nspecies = \"bead\"\n",
                R"(["100 m", "100 m", "5 mm"])");
   CHECK(deepestOverlap(scene, placeGrains(scene, "run", 0, {})) <= 0);
+}
+
+TEST_CASE("listed grains may stick into walls that they can leave, not into a gap too narrow", "[filling]") {
+  struct Plane {
+    Vec3 point, normal;
+  };
+  const auto place = [](const std::vector<Plane>& planes, const Vec3& at) {
+    std::string parts = fmt::format("[[fill]]\nkind = \"list\"\ngrains = [{{ species = \"bead\", position = "
+                                    "[\"{} m\", \"{} m\", \"{} m\"] }}]\n",
+                                    at.x(), at.y(), at.z());
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const auto& [p, n] = planes[i];
+      parts +=
+          fmt::format("[[wall]]\nname = \"{}\"\nkind = \"plane\"\nmaterial = \"glass\"\npoint = [\"{} m\", "
+                      "\"{} m\", \"{} m\"]\nnormal = [{}, {}, {}]\n",
+                      i, p.x(), p.y(), p.z(), n.x(), n.y(), n.z());
+    }
+    return placeGrains(boxScene("[]", parts), "run", 0, {}).size();
+  };
+  const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), zero(0, 0, 0), middle(0.01, 0.01, 0.01);
+  const auto narrow = Catch::Contains("too narrow for; move it, make it smaller or widen the space");
+  // Grains of 2 mm, 0.1 mm deep in a floor, and in a corner of two walls and of three.
+  const double deep = 0.9e-3;
+  CHECK(place({{zero, z}}, {0.01, 0.01, deep}) == 1);
+  CHECK(place({{zero, z}, {zero, x}}, {deep, 0.01, deep}) == 1);
+  CHECK(place({{zero, z}, {zero, x}, {zero, y}}, {deep, deep, deep}) == 1);
+  for (const double degrees : {1.0, 6.0, 30.0}) { // half the angle of a wedge
+    const double s = std::sin(degrees * std::numbers::pi / 180), c = std::sqrt(1 - s * s);
+    const Vec3 foot = middle - deep / s * z;
+    CHECK(place({{foot, c * x + s * z}, {foot, -c * x + s * z}}, middle) == 1);
+  }
+  // Slots of 1.9 mm and of 1.992 mm; the grain 0.05 mm off the middle.
+  CHECK_THROWS_WITH(place({{middle - 0.9e-3 * x, x}, {middle + 1e-3 * x, -x}}, middle), narrow);
+  CHECK(place({{middle - 0.942e-3 * x, x}, {middle + 1.05e-3 * x, -x}}, middle) == 1);
+  // A prism of three sides 0.9 mm from its axis.
+  const Vec3 left(-0.5, std::sqrt(0.75), 0), right(-0.5, -std::sqrt(0.75), 0);
+  CHECK_THROWS_WITH(
+      place({{middle - deep * x, x}, {middle - deep * left, left}, {middle - deep * right, right}}, middle),
+      narrow);
 }
 
 TEST_CASE("listed grains come from a CSV file with any units", "[filling]") {
