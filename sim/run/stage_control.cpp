@@ -195,11 +195,16 @@ bool StageControl::ended(bool longLook) const {
     const double quiet = solver_.time() - (flowing ? flow.lastDischarge : began);
     if (quiet >= (flowing ? 1 : quietBeforeFlow) * *stage.quietTime) return true;
   }
-  if (stage.recirculations && grainsAtStart_ > 0 &&
-      static_cast<double>(flow.grainsRecycled - recycledAtStart_) >=
-          *stage.recirculations * static_cast<double>(grainsAtStart_))
-    return true;
+  if (stage.recirculations && recirculated() >= *stage.recirculations) return true;
   return longLook && !coming && steps >= stepsIn(stage.settledAfter, dt) && atRest();
+}
+
+double StageControl::recirculated() const {
+  const auto now = static_cast<std::int64_t>(solver_.freeGrains() + recycling_.waiting());
+  const auto grains = std::max(grainsAtStart_, now); // those that rained in go round as well
+  return grains > 0 ? static_cast<double>(solver_.flow().grainsRecycled - recycledAtStart_) /
+                          static_cast<double>(grains)
+                    : 0;
 }
 
 bool StageControl::atRest() const {
@@ -228,9 +233,7 @@ double StageControl::stageFraction() const {
   if (stage.untilEmpty && grainsAtStart_ > 0)
     fraction = std::max(fraction,
                         1 - static_cast<double>(solver_.freeGrains()) / static_cast<double>(grainsAtStart_));
-  if (stage.recirculations && grainsAtStart_ > 0)
-    fraction = std::max(fraction, static_cast<double>(solver_.flow().grainsRecycled - recycledAtStart_) /
-                                      (*stage.recirculations * static_cast<double>(grainsAtStart_)));
+  if (stage.recirculations) fraction = std::max(fraction, recirculated() / *stage.recirculations);
   return std::clamp(fraction, 0.0, 1.0);
 }
 

@@ -58,6 +58,7 @@ private:
   void bringIn();                  ///< rain and grains put back
   bool ended(bool longLook) const;
   bool atRest() const;
+  double recirculated() const; ///< grains put back in this stage, as a multiple of those there are
   double stageFraction() const;
 
   const Scene& scene_;

@@ -112,7 +112,7 @@ struct StageSpec {
   bool untilEmpty = false;                    ///< no grain left
   std::optional<double> massDischarged;       ///< [kg]
   std::optional<double> quietTime;            ///< [s] without any grain leaving
-  std::optional<double> recirculations;       ///< grains put back, as a multiple of the number at the start
+  std::optional<double> recirculations;       ///< grains put back, a multiple of the number at the start or now
   bool operator==(const StageSpec&) const = default;
 };
 

@@ -244,9 +244,10 @@ const Keys& untilKeys() {
       {.name = "empty", .type = boolean, .unit = "1", .description = "no grain is left", .fallback = false},
       positive("mass_discharged", "kg", "mass that has left through outlets"),
       positive("quiet", "s", "time without any grain leaving"),
-      positive(
-          "recirculations", "1",
-          "grains put back by outlets, as a multiple of the number of grains at the start of the stage")};
+      positive("recirculations", "1",
+               "grains put back by outlets, as a multiple of the number of grains at the start of the stage "
+               "or now, "
+               "whichever is larger")};
   return keys;
 }
 

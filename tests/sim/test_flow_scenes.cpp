@@ -138,6 +138,24 @@ TEST_CASE("grains that fall out come back over the bed and count their lives", "
         Approx(static_cast<double>(s.flow.grainsDischarged + between)).epsilon(1e-9));
 }
 
+TEST_CASE("grains that rained into an empty stage are counted when they go round", "[flow]") {
+  std::string text = ballisticText;
+  const auto first = text.find("[[fill]]");
+  text.erase(first, text.find("[[fill]]", first + 1) - first);
+  const Scene scene = parseScene(text, "ballistic",
+                                 {"outlet.below.recycle.lower=[\"-0.5 m\", \"-0.5 m\", \"0.2 m\"]",
+                                  "outlet.below.recycle.upper=[\"0.5 m\", \"0.5 m\", \"0.9 m\"]",
+                                  "stage.bounce.remove_walls=[\"floor\"]", "stage.bounce.until.duration=20 s",
+                                  "stage.bounce.until.recirculations=3", "stage.fall.remove_walls=[]",
+                                  "stage.fall.until.duration=1 ms"});
+  Run run(scene, fakeOptions({}));
+  REQUIRE(run.execute() == RunOutcome::finished);
+  CHECK(run.summary().flow.grainsEntered == 10);
+  CHECK(run.summary().flow.grainsRecycled >= 30);
+  CHECK(run.summary().flow.grainsRecycled < 40);
+  CHECK(run.summary().time < 5);
+}
+
 TEST_CASE("a place is the lowest free one over the bed, whoever asks first", "[flow]") {
   const Scene scene = parseScene(ballisticText, "ballistic",
                                  {"outlet.below.recycle.lower=[\"-5 cm\", \"-5 cm\", \"20 cm\"]",
