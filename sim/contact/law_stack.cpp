@@ -79,8 +79,8 @@ double uniformMass(const Scene& scene, const Material& a, const Material& b) {
 PairType pairType(const Scene& scene, const Material& a, const Material& b) {
   PairType t;
   const double ma = meanMass(scene, a.name), mb = meanMass(scene, b.name);
-  t.used = ma > 0.0 || mb > 0.0;
   const double ra = largestRadius(scene, a.name), rb = largestRadius(scene, b.name);
+  t.used = ra > 0.0 || rb > 0.0;
   t.largestEffectiveRadius = ra > 0.0 && rb > 0.0 ? ra * rb / (ra + rb) : std::max(ra, rb);
   t.referenceMass = ma > 0.0 && mb > 0.0 ? ma * mb / (ma + mb) : std::max(ma, mb);
   if (a.youngsModulus && b.youngsModulus && a.poissonRatio && b.poissonRatio) {

@@ -35,7 +35,16 @@ Smallest smallestGrain(const Scene& scene, const Material& material) {
 }
 
 double harmonic(double a, double b) {
-  return std::isinf(a) ? b : std::isinf(b) ? a : a * b / (a + b);
+  return std::isinf(a) ? b : std::isinf(b) || a == 0 ? a : a * b / (a + b);
+}
+
+/// Too large or too small for a double, or for what their law multiplies.
+[[noreturn]] void refuseTime(const Scene& scene, const std::string& pair, double mass, double time) {
+  throw InputError(
+      fmt::format("{}: a collision of {} takes {:.3g} s for their smallest grains (reduced mass {:.3g} kg), "
+                  "from which no time step follows; check the diameters, the density, and the stiffness, "
+                  "collision_time or youngs_modulus",
+                  scene.file, pair, time, mass));
 }
 
 } // namespace
@@ -65,6 +74,7 @@ StepChoice chooseStep(const Scene& scene, const LawStack& laws) {
   choice.shortestContact = std::numeric_limits<double>::infinity();
   const double speed = impactSpeed(scene);
   std::string pair;
+  double reducedMass = 0;
   for (std::size_t a = 0; a < scene.materials.size(); ++a)
     for (std::size_t b = a; b < scene.materials.size(); ++b) {
       const int type = laws.typeOf(static_cast<int>(a), static_cast<int>(b));
@@ -72,15 +82,19 @@ StepChoice chooseStep(const Scene& scene, const LawStack& laws) {
       const Smallest s = smallestGrain(scene, scene.materials[a]),
                      t = smallestGrain(scene, scene.materials[b]);
       const double mass = harmonic(s.mass, t.mass), radius = harmonic(s.radius, t.radius);
+      if (std::isinf(radius)) continue; // two materials of walls
       for (const auto& entry : laws.entries()) {
         const double tc = entry.law->collisionTime(type, mass, radius, speed);
-        if (tc >= choice.shortestContact) continue;
-        choice.shortestContact = tc;
+        if (!pair.empty() && tc >= choice.shortestContact) continue;
         pair = scene.materials[a].name + " on " + scene.materials[b].name;
+        choice.shortestContact = tc;
+        reducedMass = mass;
+        if (!(tc > 0)) refuseTime(scene, pair, reducedMass, tc);
       }
     }
-  if (!std::isfinite(choice.shortestContact))
+  if (pair.empty())
     throw InputError("no two materials of the scene can touch, so no time step follows; add a [[contact]]");
+  if (!std::isnormal(choice.shortestContact)) refuseTime(scene, pair, reducedMass, choice.shortestContact);
   choice.stableLimit = choice.shortestContact / 5.0;
   if (scene.accuracy.timeStep) {
     choice.step = *scene.accuracy.timeStep;

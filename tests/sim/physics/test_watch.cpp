@@ -23,6 +23,36 @@ TEST_CASE("a time step above the stable limit is refused") {
   CHECK_NOTHROW(DemSolver(scene));
 }
 
+TEST_CASE("a collision that takes no time, or for ever, is refused with its pair") {
+  const auto refusal = [](const std::string& normal, double density, double diameter) {
+    SceneText t;
+    t.normal = normal;
+    t.elasticity = "youngs_modulus = \"1e7 Pa\"\npoisson_ratio = 0.3";
+    Scene scene = t.scene();
+    for (Material& m : scene.materials)
+      m.density = density;
+    for (Species& s : scene.species)
+      s.size.parameters.set("diameter", diameter);
+    try {
+      DemSolver solver(scene);
+    } catch (const InputError& e) {
+      return e.sentences().front();
+    }
+    return std::string();
+  };
+  const auto expect = [](const std::string& said, const std::string& time) {
+    CHECK_THAT(said, Catch::Contains("a collision of glass on glass takes " + time + " s") &&
+                         Catch::Contains("no time step follows; check the diameters, the density"));
+  };
+  const std::string hertz = R"({ law = "hertz", restitution = 0.9 })",
+                    linear = R"({ law = "linear", stiffness = "1000 N/m", restitution = 0.9 })";
+  CHECK(refusal(hertz, 2500, 2e-3).empty());
+  expect(refusal(linear, 2500, 1e-300), "0");
+  expect(refusal(linear, 1e-323, 2e-3), "0");
+  expect(refusal(hertz, 1e300, 2e-3), "inf");
+  expect(refusal(R"({ law = "linear", collision_time = "1e-300 s", restitution = 0.9 })", 2500, 2e-3), "0");
+}
+
 TEST_CASE(
     "just below the stable limit a dense lattice at rest stays bounded, beyond the estimate it does not") {
   // Why the limit is where it is: a block of touching grains with friction, stirred a little, in a periodic
