@@ -202,6 +202,13 @@ void checkAmounts(const Scene& scene, FaultList& faults) {
     }
     if (lattice) tryPlacing(scene, f, faults);
     if (lattice) continue;
+    if (!FillRegion(p, scene.domain).holds(mixture.smallest() / 2)) {
+      faults.about(pathOf(f),
+                   fmt::format("has a region that not even its smallest grain, {:.6g} m in diameter, "
+                               "fits into; make the region larger or the grains smaller",
+                               mixture.smallest()));
+      continue;
+    }
     const double openPart = openShare(scene, fill);
     if (openPart <= 0) {
       faults.about(pathOf(f),

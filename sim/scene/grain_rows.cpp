@@ -190,8 +190,13 @@ std::vector<Row> csvRows(const std::string& file, const std::vector<Species>& sp
       const auto parts = cells(line);
       if (columns.empty()) {
         std::vector<Column> headings;
-        for (const auto& heading : parts)
-          headings.push_back(parseHeading(heading));
+        for (const auto& heading : parts) {
+          Column column = parseHeading(heading);
+          if (std::any_of(headings.begin(), headings.end(),
+                          [&](const Column& c) { return c.name == column.name; }))
+            throw InputError(fmt::format("there are two columns '{}'; remove one", column.name));
+          headings.push_back(std::move(column));
+        }
         for (const char* axis : {"x", "y", "z"})
           if (std::none_of(headings.begin(), headings.end(), [&](const Column& c) { return c.name == axis; }))
             throw InputError(fmt::format("the column '{}' is missing", axis));
