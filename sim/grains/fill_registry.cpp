@@ -10,20 +10,24 @@ const ParameterSpec velocity{.name = "velocity",
                              .type = vector,
                              .unit = "m/s",
                              .description = "mean velocity",
-                             .fallback = Vec3(Vec3::Zero())};
+                             .fallback = Vec3(Vec3::Zero()),
+                             .minimum = -1e6,
+                             .maximum = 1e6};
 const ParameterSpec velocitySpread{.name = "velocity_spread",
                                    .type = vector,
                                    .unit = "m/s",
                                    .description =
                                        "velocities are drawn evenly within this of the mean, axis by axis",
                                    .fallback = Vec3(Vec3::Zero()),
-                                   .minimum = 0};
+                                   .minimum = 0,
+                                   .maximum = 1e6};
 const ParameterSpec spinSpread{.name = "spin_spread",
                                .type = number,
                                .unit = "rad/s",
                                .description = "spins are drawn evenly within this of zero, axis by axis",
                                .fallback = 0.0,
-                               .minimum = 0};
+                               .minimum = 0,
+                               .maximum = 1e9};
 
 ParameterSpec point(std::string name, std::string description, bool optional) {
   return {.name = std::move(name),

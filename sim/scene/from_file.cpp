@@ -13,6 +13,7 @@ ParameterSpec fileScale() {
           .description = "length of one unit of the file",
           .optional = true,
           .minimum = 0,
+          .maximum = 1e6,
           .openMinimum = true};
 }
 

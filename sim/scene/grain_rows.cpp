@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace sandglass {
 
@@ -18,6 +20,8 @@ struct Row {
   Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(), spin = Vec3::Zero();
 };
 
+constexpr double mostSpeed = 1e6, mostSpin = 1e9; ///< [m/s], [rad/s]; their squares must be numbers
+
 const std::vector<ParameterSpec>& rowKeys() {
   using enum ParameterType;
   static const std::vector<ParameterSpec> keys{
@@ -26,12 +30,16 @@ const std::vector<ParameterSpec>& rowKeys() {
        .type = vector,
        .unit = "m/s",
        .description = "velocity",
-       .fallback = Vec3(Vec3::Zero())},
+       .fallback = Vec3(Vec3::Zero()),
+       .minimum = -mostSpeed,
+       .maximum = mostSpeed},
       {.name = "spin",
        .type = vector,
        .unit = "rad/s",
        .description = "angular velocity",
-       .fallback = Vec3(Vec3::Zero())},
+       .fallback = Vec3(Vec3::Zero()),
+       .minimum = -mostSpin,
+       .maximum = mostSpin},
       {.name = "species",
        .type = text,
        .unit = "1",
@@ -164,6 +172,12 @@ void assign(Row& row, const Column& column, const std::string& cell) {
     throw InputError(fmt::format("{} is \"{}\", {}", column.name, cell, problem.what()));
   }
   const auto at = known - columnUnits.begin();
+  const double most = at < 3 || at >= 9 ? std::numeric_limits<double>::infinity()
+                      : at < 6          ? mostSpeed
+                                        : mostSpin;
+  if (std::abs(value) > most)
+    throw InputError(fmt::format("{} is \"{}\", but must lie between -{:g} and {:g} {}", column.name, cell,
+                                 most, most, known->second));
   if (at < 3)
     row.position[at] = value;
   else if (at < 6)

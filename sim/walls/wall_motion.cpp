@@ -179,7 +179,13 @@ bool WallMotion::running(double time, const MotionMarks& marks) const {
 
 const std::vector<MotionKind>& motionKinds() {
   static const std::vector<MotionKind> kinds{
-      kind("translate", "moves straight on", {vector("velocity", "m/s", "constant")},
+      kind("translate", "moves straight on",
+           {{.name = "velocity",
+             .type = ParameterType::vector,
+             .unit = "m/s",
+             .description = "constant",
+             .minimum = -1e6,
+             .maximum = 1e6}},
            [](const Parameters& p) {
              return std::make_shared<Translation>(clockOf(p), p.vector("velocity"));
            }),
@@ -189,7 +195,9 @@ const std::vector<MotionKind>& motionKinds() {
             {.name = "angular_velocity",
              .type = ParameterType::number,
              .unit = "rad/s",
-             .description = "constant, right-handed about the axis"}},
+             .description = "constant, right-handed about the axis",
+             .minimum = -1e6,
+             .maximum = 1e6}},
            [](const Parameters& p) {
              if (p.vector("axis").norm() == 0.0) throw InputError("the axis must not be zero");
              return std::make_shared<Rotation>(clockOf(p), p.vector("point"), p.vector("axis"),
@@ -202,6 +210,7 @@ const std::vector<MotionKind>& motionKinds() {
              .unit = "1/s",
              .description = "oscillations per time",
              .minimum = 0,
+             .maximum = 1e6,
              .openMinimum = true},
             {.name = "phase",
              .type = ParameterType::number,

@@ -46,6 +46,7 @@ std::vector<std::string> faultsOf(const std::string& scene, const std::vector<st
 
 TEST_CASE("the scene that the broken ones start from is sound", "[scene]") {
   CHECK(faultsOf(contents(folder + "/base.toml"), {}).empty());
+  CHECK(faultsOf("\xEF\xBB\xBF" + contents(folder + "/base.toml"), {}).empty()); // a byte order mark
 }
 
 TEST_CASE("every broken scene gets its sentences", "[scene]") {
