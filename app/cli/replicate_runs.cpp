@@ -233,6 +233,13 @@ analysis::Replicate resultsOf(const Job& job, analysis::Units& units) {
   return result;
 }
 
+bool sameNumbers(const std::map<std::string, double>& a, const std::map<std::string, double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+    const bool both = std::isnan(one.second) && std::isnan(other.second);
+    return one.first == other.first && (both || one.second == other.second);
+  });
+}
+
 void printTable(const analysis::Table& summary) {
   std::size_t width = 8;
   for (const auto& name : summary.rowNames)
@@ -267,6 +274,14 @@ void writeResults(const std::vector<std::unique_ptr<Job>>& jobs, const fs::path&
   files.write(each);
   files.write(summary);
   printTable(summary);
+  if (results.size() > 1 && std::all_of(results.begin(), results.end(), [&](const auto& result) {
+        return sameNumbers(result.quantities, results.front().quantities);
+      }))
+    report(consoleLog(), LogLevel::warning,
+           fmt::format(
+               "all {} runs ended with equal numbers, so the intervals of 0 say nothing of chance: nothing "
+               "in the scene is random, or no probe shows it",
+               results.size()));
   if (std::none_of(results.begin(), results.end(), [](const auto& r) { return r.discharge.time.size() > 1; }))
     return;
   auto curve = analysis::meanDischarge(results);

@@ -64,6 +64,27 @@ TEST_CASE("replicates are single runs with seeds of their own", "[replicates]") 
   CHECK(content(folder / "all" / "summary.csv") == before);
 }
 
+TEST_CASE("replicates of a scene without chance are told to be equal", "[replicates]") {
+  const TemporaryFolder folder("replicates-equal");
+  const std::string scene = (folder / "s.toml").string();
+  std::string text = smallHopper;
+  const auto fills = text.find("[[fill]]"), stages = text.find("[[stage]]");
+  text.replace(fills, stages - fills, R"([[fill]]
+kind = "list"
+grains = [{ position = ["0", "1 cm", "0"], diameter = "2 mm" }]
+
+)");
+  std::ofstream(scene) << text;
+  const std::string to = "--replicates 2 -o " + (folder / "all").string();
+  const Result equal = program("run " + scene + brief + to);
+  CHECK(equal.code == 0);
+  CHECK_THAT(equal.text, Contains("all 2 runs ended with equal numbers"));
+  std::ofstream(scene) << smallHopper;
+  const Result chance = program("run " + scene + brief + to + "_of_chance");
+  CHECK(chance.code == 0);
+  CHECK_THAT(chance.text, !Contains("equal numbers"));
+}
+
 TEST_CASE("what replicates refuse, and how they fail", "[replicates]") {
   const TemporaryFolder folder("replicates-wrong");
   const std::string scene = (folder / "s.toml").string(), all = (folder / "all").string();
