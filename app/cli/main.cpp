@@ -10,10 +10,12 @@
 #include "vis/readers/vtp_mesh.h"
 #endif
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN); // a write beyond the largest file allowed then fails, as on a full disk
   using namespace sandglass;
 #ifdef SANDGLASS_VIS
   if (int code = 0; vis::serveAsReader(argc, argv, code)) return code;

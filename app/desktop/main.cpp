@@ -16,6 +16,7 @@
 #include <QStandardPaths>
 #include <QTimer>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -115,6 +116,7 @@ int show(const Arguments& a, int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN); // a write beyond the largest file allowed then fails, as on a full disk
   if (int code = 0; sandglass::vis::serveAsReader(argc, argv, code)) return code;
   CLI::App app{"Sandglass: granular flow in a window."};
   Arguments arguments;

@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 using namespace sandglass::test;
@@ -60,6 +61,20 @@ TEST_CASE("sandglass run and convert from the command line", "[app]") {
   }
   CHECK(invoke("convert " + run + " " + (folder / "b.vtp").string() + " --frame -3").code == 0);
   CHECK(invoke("convert " + (folder / "a.vtkhdf").string() + " " + (folder / "c.csv").string()).code == 0);
+}
+
+TEST_CASE("A limit on the size of files ends a run with a sentence", "[app]") {
+  const TemporaryFolder folder("file-limit");
+  const std::string scene = (folder / "s.toml").string();
+  std::ofstream(scene) << smallHopper;
+  ::rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const ::rlimit small{20 * 1024, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+  const Outcome cut = invoke("run " + scene + " -o " + (folder / "r").string());
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
+  CHECK(cut.code == 1);
+  CHECK_THAT(cut.text, Contains("cannot finish writing"));
 }
 
 TEST_CASE("Wrong input of run and convert", "[app]") {
