@@ -33,7 +33,7 @@ TEST_CASE("explain says what is modelled and what it costs", "[explain]") {
   const Answer answer = call("explain " + samples + "hopper_glass");
   CHECK(answer.code == 0);
   CHECK_THAT(answer.text, Catch::Contains("6790 grains"));
-  CHECK_THAT(answer.text, Catch::Contains("2e-05 s: given by the scene"));
+  CHECK_THAT(answer.text, Catch::Contains("2e-05 s: given by time_step"));
   CHECK_THAT(answer.text, Catch::Contains("forces across a gap")); // not used
   CHECK_THAT(answer.text, Catch::Contains("This assumes that every stage lasts its full duration"));
 }

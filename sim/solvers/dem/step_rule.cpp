@@ -98,9 +98,11 @@ StepChoice chooseStep(const Scene& scene, const LawStack& laws) {
   choice.stableLimit = choice.shortestContact / 5.0;
   if (scene.accuracy.timeStep) {
     choice.step = *scene.accuracy.timeStep;
-    choice.rule = fmt::format("given by the scene: {:.1f} steps in the shortest collision ({}, {:.3g} s); "
-                              "stable below a fifth of it",
-                              choice.shortestContact / choice.step, pair, choice.shortestContact);
+    choice.rule = fmt::format(
+        "given by time_step, whatever level and steps_per_contact say: {:.1f} steps in the shortest "
+        "collision ({}, {:.3g} s); "
+        "stable below a fifth of it",
+        choice.shortestContact / choice.step, pair, choice.shortestContact);
   } else {
     choice.step = choice.shortestContact / scene.accuracy.stepsPerContact;
     choice.rule = fmt::format("the shortest collision ({}, {:.3g} s) divided by steps_per_contact = {:g}; "

@@ -1,6 +1,7 @@
 // The solver refuses or stops with a sentence; it never goes on with a wrong answer.
 
 #include "sim/base/error.h"
+#include "sim/solvers/dem/step_rule.h"
 #include "tests/sim/physics/bench_scenes.h"
 
 #include <catch2/catch.hpp>
@@ -21,6 +22,8 @@ TEST_CASE("a time step above the stable limit is refused") {
   CHECK_THROWS_WITH(DemSolver(scene), Catch::Contains("above the stable limit"));
   scene.accuracy.timeStep = collision / 5.1;
   CHECK_NOTHROW(DemSolver(scene));
+  CHECK_THAT(chooseStep(scene, LawStack(scene)).rule,
+             Catch::StartsWith("given by time_step, whatever level and steps_per_contact say: 5.1 steps"));
 }
 
 TEST_CASE("a collision that takes no time, or for ever, is refused with its pair") {
