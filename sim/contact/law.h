@@ -23,7 +23,8 @@ struct PairType {
   /// they differ.
   double uniformMass = 0;
   double largestEffectiveRadius = 0; ///< [m] of two of the largest grains, or of one at a wall
-  bool swapped = false;              ///< the scene names the two materials in the other order
+  std::string materialA, materialB; ///< names
+  bool swapped = false;             ///< the scene names the two materials in the other order
   double effectiveYoungsModulus = 0; ///< [Pa], 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; 0 when not given
   double effectiveShearModulus = 0;  ///< [Pa], 1/G* = (2-nu1)/G1 + (2-nu2)/G2
 };

@@ -78,6 +78,7 @@ double uniformMass(const Scene& scene, const Material& a, const Material& b) {
 /// Everything about the pair but the parameters of a law.
 PairType pairType(const Scene& scene, const Material& a, const Material& b) {
   PairType t;
+  t.materialA = a.name, t.materialB = b.name;
   const double ma = meanMass(scene, a.name), mb = meanMass(scene, b.name);
   const double ra = largestRadius(scene, a.name), rb = largestRadius(scene, b.name);
   t.used = ra > 0.0 || rb > 0.0;

@@ -18,7 +18,7 @@ void PairForces::bind(GrainStore& grains, PairList& list) {
   kernel_ = laws_.mixed() ? mixedKernel(laws_.width()) : kernelOf(laws_.width());
   view_.records = &grains.records().data()->x;
   view_.quads = grains.quadsPerRecord();
-  view_.pairs = &list.pairs().data()->a;
+  view_.pairs = reinterpret_cast<const std::int32_t*>(list.pairs().data()); // of an empty list too
   view_.shiftOf = list.periodic() ? list.shiftOf().data() : nullptr;
   view_.shifts = list.periodic() ? &list.shifts().data()->x : nullptr;
   view_.noShift = static_cast<std::uint8_t>(list.shifts().size() / 2); // codes are symmetric about the box

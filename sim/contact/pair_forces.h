@@ -28,6 +28,11 @@ struct DeepestOverlap {
   /// Instead of a share: a wall is touched in more places than can be kept.
   static constexpr double crowded = std::numeric_limits<double>::infinity();
 
+  /// Instead of a share: a grain is so deep in a wall that its centre is about to pass through, and the wall
+  /// would push it out on the other side (WallShape::pushesBack()).
+  static constexpr double passing = std::numeric_limits<double>::max();
+  static constexpr double aboutToPass = 0.9; ///< share from which on it is
+
   double share = 0;                ///< of the smaller radius
   std::int64_t idA = -1, idB = -1; ///< idB < 0: a wall
   int wall = -1;

@@ -300,10 +300,13 @@ void WallContacts::evaluate(const GrainStore& grains, const std::vector<SolverWa
     const Candidate& at = candidates_[s.block.crowded];
     s.deepest.take(DeepestOverlap::crowded, grains.id[at.grain], -1, at.wall);
   }
-  if (s.block.greatestShare() < s.deepest.share) return;
+  const double greatest = s.block.greatestShare();
+  if (greatest < std::min(s.deepest.share, DeepestOverlap::aboutToPass)) return;
   for (int c = 0; c < b.size; ++c) {
     const Candidate& at = candidates_[s.block.owner[c]];
-    s.deepest.take(s.block.share[c], grains.id[at.grain], -1, at.wall);
+    const double share = s.block.share[c];
+    const bool passing = share > DeepestOverlap::aboutToPass && !walls[at.wall].shape->pushesBack();
+    s.deepest.take(passing ? DeepestOverlap::passing : share, grains.id[at.grain], -1, at.wall);
   }
 }
 

@@ -51,7 +51,10 @@ const std::vector<ParameterSpec> randomParameters{
     {.name = "region",
      .type = text,
      .unit = "1",
-     .description = "shape of the space to fill; grains lie inside it as a whole",
+     .description =
+         "shape of the space to fill; grains lie inside it as a whole. interior: all of the domain that is "
+         "not "
+         "behind a wall; walls touched from both sides and places beyond an open end are not in its way",
      .fallback = std::string("interior"),
      .choices = {"interior", "box", "cylinder"}},
     point("lower", "lower corner of a box", true),

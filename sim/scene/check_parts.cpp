@@ -85,7 +85,8 @@ void checkElasticity(const Scene& scene, const ContactSpec& contact, const std::
 }
 
 /// Laws say themselves when their parameters contradict each other.
-void checkLaw(LawRole role, const Choice& law, const std::string& path, FaultList& faults) {
+void checkLaw(LawRole role, const Choice& law, const ContactSpec& of, const std::string& path,
+              FaultList& faults) {
   const LawKind* kind = findLaw(role, law.kind);
   if (!kind || faults.has(path)) return;
   LawContext context;
@@ -93,6 +94,8 @@ void checkLaw(LawRole role, const Choice& law, const std::string& path, FaultLis
                            .parameters = law.parameters,
                            .referenceMass = 1e-6,
                            .largestEffectiveRadius = 1e-3,
+                           .materialA = of.first,
+                           .materialB = of.second,
                            .effectiveYoungsModulus = 1e9,
                            .effectiveShearModulus = 1e9});
   try {
@@ -103,12 +106,12 @@ void checkLaw(LawRole role, const Choice& law, const std::string& path, FaultLis
 }
 
 void checkLawsOf(const ContactSpec& contact, const std::string& path, FaultList& faults) {
-  checkLaw(LawRole::normal, contact.normal, path + ".normal", faults);
-  checkLaw(LawRole::tangential, contact.tangential, path + ".tangential", faults);
-  checkLaw(LawRole::rolling, contact.rolling, path + ".rolling", faults);
-  checkLaw(LawRole::torsion, contact.torsion, path + ".torsion", faults);
+  checkLaw(LawRole::normal, contact.normal, contact, path + ".normal", faults);
+  checkLaw(LawRole::tangential, contact.tangential, contact, path + ".tangential", faults);
+  checkLaw(LawRole::rolling, contact.rolling, contact, path + ".rolling", faults);
+  checkLaw(LawRole::torsion, contact.torsion, contact, path + ".torsion", faults);
   for (std::size_t g = 0; g < contact.gap.size(); ++g)
-    checkLaw(LawRole::gap, contact.gap[g], fmt::format("{}.gap.{}", path, g + 1), faults);
+    checkLaw(LawRole::gap, contact.gap[g], contact, fmt::format("{}.gap.{}", path, g + 1), faults);
 }
 
 } // namespace

@@ -101,7 +101,9 @@ const Keys& accuracyKeys() {
       {.name = "maximum_overlap",
        .type = number,
        .unit = "1",
-       .description = "share of the smaller radius at which a run stops",
+       .description =
+           "share of the smaller radius at which a run stops; at walls other than planes 0.9 at most, beyond "
+           "which a grain would pass through",
        .fallback = 0.5,
        .minimum = 0,
        .maximum = 3,

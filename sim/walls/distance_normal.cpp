@@ -17,6 +17,7 @@ public:
     if (h < 0.0 || h > height_ || distance >= reach) return;
     out.add({distance, -away / centre.norm(), 0});
   }
+  bool pushesBack() const override { return true; }
   double signedDistance(const Vec3& x) const override { return tube_->signedDistance(x); }
   /// Wider than the tube, so that grains beyond it are found.
   Eigen::AlignedBox3d bounds() const override {

@@ -19,6 +19,7 @@ public:
     if (d < reach) out.add({d, normal_, 0});
   }
 
+  bool pushesBack() const override { return true; }
   double signedDistance(const Vec3& x) const override { return (x - point_).dot(normal_); }
 
   Eigen::AlignedBox3d bounds() const override {

@@ -4,6 +4,7 @@
 #include "sim/walls/wall_kinds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -112,16 +113,45 @@ private:
   std::vector<Rectangle> faces_;
 };
 
+/// Beyond a corner or an edge no face is right behind a place, which is out of the box all the same: unless
+/// one of the sides that it lies beyond is open.
+class BoxWall final : public RectangleWall {
+public:
+  BoxWall(std::vector<Rectangle> faces, const Vec3& lower, const Vec3& upper, std::array<bool, 6> open)
+      : RectangleWall(std::move(faces)), lower_(lower), upper_(upper), open_(open) {}
+
+  double signedDistance(const Vec3& x) const override {
+    bool outside = false, free = false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const std::size_t side : {0u, 1u}) {
+        const auto k = static_cast<Eigen::Index>(axis);
+        if (side == 0 ? x[k] >= lower_[k] : x[k] <= upper_[k]) continue;
+        outside = true;
+        free = free || open_[2 * axis + side];
+      }
+    const double distance = std::abs(RectangleWall::signedDistance(x));
+    return outside && !free ? -distance : distance;
+  }
+
+private:
+  Vec3 lower_, upper_;
+  std::array<bool, 6> open_; ///< x-, x+, y-, ...
+};
+
 std::shared_ptr<const WallShape> makeBox(const Parameters& p) {
   const Vec3 lower = p.vector("lower"), upper = p.vector("upper");
   if (((upper - lower).array() <= 0.0).any()) throw InputError("upper must lie above lower along every axis");
   const auto& open = p.texts("open");
   const Vec3 centre = 0.5 * (lower + upper), half = 0.5 * (upper - lower);
   std::vector<Rectangle> faces;
+  std::array<bool, 6> opened{};
   for (int axis = 0; axis < 3; ++axis)
     for (int side : {-1, 1}) {
       const std::string name = std::string(1, "xyz"[axis]) + (side < 0 ? "-" : "+");
-      if (std::find(open.begin(), open.end(), name) != open.end()) continue;
+      if (std::find(open.begin(), open.end(), name) != open.end()) {
+        opened[static_cast<std::size_t>(2 * axis + (side > 0))] = true;
+        continue;
+      }
       const int a = (axis + 1) % 3, b = (axis + 2) % 3;
       faces.push_back({centre + side * half[axis] * Vec3::Unit(axis), Vec3::Unit(a), Vec3::Unit(b),
                        -side * Vec3::Unit(axis), half[a], half[b]});
@@ -130,7 +160,7 @@ std::shared_ptr<const WallShape> makeBox(const Parameters& p) {
     if (name.size() != 2 || name[0] < 'x' || name[0] > 'z' || (name[1] != '-' && name[1] != '+'))
       throw InputError("open faces are named x-, x+, y-, y+, z- or z+, not '" + name + "'");
   if (faces.empty()) throw InputError("a box needs at least one face that is not open");
-  return std::make_shared<RectangleWall>(std::move(faces));
+  return std::make_shared<BoxWall>(std::move(faces), lower, upper, opened);
 }
 
 } // namespace

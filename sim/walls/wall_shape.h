@@ -39,6 +39,10 @@ public:
 
   virtual ~WallShape() = default;
 
+  /// Whether a grain whose centre has passed through is pushed back to where it came from. Where the normal
+  /// points from the nearest place of the surface to the grain, it is pushed out on the other side instead.
+  virtual bool pushesBack() const { return false; }
+
   /// Of this kind of wall; what is kept of grains near it grows with it.
   virtual int mostTouches() const { return 6; }
 

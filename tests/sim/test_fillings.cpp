@@ -125,6 +125,28 @@ species = "mixed"
   CHECK(deepestOverlap(scene, grains) <= 0);
 }
 
+TEST_CASE("a filling of the interior lies inside a closed box, corners of the domain left out", "[filling]") {
+  const Scene scene = boxScene("[]", R"(
+[[wall]]
+name = "box"
+kind = "box"
+material = "glass"
+lower = ["0.5 cm", "0.5 cm", "0.5 cm"]
+upper = ["1.5 cm", "1.5 cm", "1.5 cm"]
+[[fill]]
+kind = "random"
+number = 20
+species = "bead"
+)");
+  const auto grains = placeGrains(scene, "run", 1, {});
+  REQUIRE(grains.size() == 20);
+  for (const GrainSeed& g : grains)
+    for (int k = 0; k < 3; ++k) {
+      CHECK(g.position[k] - g.radius >= 0.005);
+      CHECK(g.position[k] + g.radius <= 0.015);
+    }
+}
+
 TEST_CASE("fillings depend on the seed alone", "[filling]") {
   const std::string fill = R"(
 [[fill]]

@@ -134,7 +134,7 @@ void rest(const ParticleView& v, std::int64_t p, bool keepHistory) {
   if (turning && !keepHistory && !v.quiet[p / W::lanes]) {
     for (int k = 0; k < historySize; ++k)
       W::write(historyOf<historySize, typename W::Real>(v, p) + ParticleView::lane * k, zero);
-    v.quiet[p / W::lanes] = 1;
+    __atomic_store_n(&v.quiet[p / W::lanes], std::uint8_t{1}, __ATOMIC_RELAXED);
   }
 }
 
@@ -146,7 +146,7 @@ template <class W, bool turning, int historySize>
 SANDGLASS_LOOP const char* fetch(const ParticleView& v, std::int64_t p, const char* ahead) {
   constexpr int line = 64, record = W::quad * (turning ? 3 : 2) * static_cast<int>(sizeof(double));
   constexpr int lines = (W::lanes * record + 3 * line - 1) / (3 * line);
-  if (turning && !v.quiet[(p + ContactBlock::capacity) / W::lanes])
+  if (turning && !__atomic_load_n(&v.quiet[(p + ContactBlock::capacity) / W::lanes], __ATOMIC_RELAXED))
     for (int k = 0; k < historySize; ++k)
       __builtin_prefetch(historyOf<historySize, typename W::Real>(v, p + ContactBlock::capacity) +
                              ParticleView::lane * k,
@@ -280,7 +280,7 @@ double fusedLoop(const ParticleView& v, const FusedLaws& laws, std::int64_t firs
       const Vector3<V> ft = springForce<A, project, dashpot>(springs.at(places), n, slip, overlap, normal,
                                                              mass, static_cast<Real>(dt), s);
       if (!keepHistory) {
-        v.quiet[p / W::lanes] = 0;
+        __atomic_store_n(&v.quiet[p / W::lanes], std::uint8_t{0}, __ATOMIC_RELAXED);
         writeVector<W>(history, s);
       }
       V arm = one;

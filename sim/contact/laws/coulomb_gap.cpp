@@ -15,7 +15,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace sandglass {
 
@@ -26,6 +29,7 @@ constexpr double vacuumPermittivity = 8.8541878128e-12; // [F/m], CODATA 2018
 class CoulombGap final : public LawLoop<CoulombGap> {
 public:
   explicit CoulombGap(const LawContext& context) {
+    std::map<std::string, double> chargeOf;
     for (const PairType& t : context.types) {
       Constants<double> c;
       if (t.used) {
@@ -36,6 +40,12 @@ public:
               fmt::format("coulomb needs two charges, in the order of 'between'; {} given", q.size()));
         const double a = t.swapped ? q[1] : q[0], b = t.swapped ? q[0] : q[1];
         const double four = 4.0 * std::numbers::pi * vacuumPermittivity * p.number("relative_permittivity");
+        for (const auto& [material, charge] : {std::pair{t.materialA, a}, {t.materialB, b}})
+          if (const double known = chargeOf.emplace(material, charge).first->second; known != charge)
+            throw InputError(
+                fmt::format("coulomb gives the material '{}' the charges {:g} C and {:g} C; make "
+                            "it the same in all its contacts",
+                            material, known, charge));
         c.imageA = a * a / (4.0 * four);
         c.imageB = b * b / (4.0 * four);
         c.direct = a * b / four;
@@ -100,8 +110,9 @@ private:
 } // namespace
 
 LawKind coulombLaw() {
-  const ParameterSpec charges{"charges", ParameterType::numbers, "C",
-                              "charge of a grain of either material, in the order of 'between'"};
+  const ParameterSpec charges{
+      "charges", ParameterType::numbers, "C",
+      "charge of a grain of either material, in the order of 'between'; a wall counts as an uncharged plane"};
   const ParameterSpec permittivity{"relative_permittivity",
                                    ParameterType::number,
                                    "1",

@@ -1,9 +1,9 @@
 // Rolling resistance, elastic-plastic spring-dashpot (type C of Ai, Chen, Rotter, Ooi, Powder Technol. 206,
-// 269 (2011)): a couple M = -k_r theta - c_r w against the relative rolling angle theta, |k_r theta| <= l
-// F_n,
+// 269 (2011)): a couple M = -k_r theta - c_r w against the relative rolling angle theta, |M| <= l F_n,
 //   k_r = 2.25 k_n l^2  (Jiang, Yu, Harris, Comput. Geotech. 32, 340 (2005)),
-// l the rolling length: given, or a coefficient times the effective radius. The dashpot acts while the couple
-// is below its limit. Rotation about the normal (torsion) is left free.
+// l the rolling length: given, or a coefficient times the effective radius. The paper limits the spring
+// alone; a dashpot that comes on top would stop a spinning grain in a single light touch. Rotation about the
+// normal (torsion) is left free.
 
 #include "sim/contact/fused/fused_laws.h"
 #include "sim/contact/law_loop.h"

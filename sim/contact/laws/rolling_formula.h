@@ -1,6 +1,7 @@
 #pragma once
 // Couples against rolling; elastic_plastic_rolling.cpp and constant_torque_rolling.cpp have the papers.
 
+#include "sim/contact/laws/friction_limit.h"
 #include "sim/contact/laws/linear_formula.h"
 #include "sim/contact/laws/vector3.h"
 
@@ -33,21 +34,16 @@ template <class A, class Constant, class Real, class V>
 SANDGLASS_LOOP Vector3<V> elasticPlasticCouple(const RollingConstants<Constant>& c, const Vector3<V>& n,
                                                const RollingPair<V>& pair, V overlap, V load, V stiffness,
                                                Real dt, Vector3<V>& angle) {
-  const V zero = A::template all<V>(0), one = A::template all<V>(1);
+  const V zero = A::template all<V>(0);
   const V length = c.length + c.coefficient * pair.radius;
   const V k = A::template all<V>(2.25) * stiffness * length * length, limit = length * load;
   Vector3<V> turned = plus<A>(acrossNormal<A>(n, angle), A::template all<V>(dt), pair.spin);
-  const Vector3<V> elastic = times(k, turned);
-  const V elastic2 = dot<A>(elastic, elastic);
-  const auto touches = A::above(overlap, zero), yields = A::above(elastic2, limit * limit);
-  V size;
-  const V scale = A::pick(yields, A::overRoot(limit, elastic2, size, A::both(touches, yields)), one);
-  turned = times(scale, turned);
   // Moment of inertia of the pair about the contact: 1/I = sum of 1/(7/5 m r^2).
-  const V critical = 2 * c.damping * A::root(A::over(A::template all<V>(1.4) * k, pair.inverse));
-  const V dashpot = A::pick(yields, zero, critical);
+  const V dashpot = 2 * c.damping * A::root(A::over(A::template all<V>(1.4) * k, pair.inverse));
+  const auto touches = A::above(overlap, zero);
+  const Vector3<V> couple = withinLimit<A, true>(touches, limit, k, dashpot, pair.spin, turned);
   angle = where<A>(touches, turned);
-  return where<A>(touches, minus<A>(times(-k, turned), dashpot, pair.spin));
+  return where<A>(touches, couple);
 }
 
 /// The couple on a; `most`: what stops a spin of 1/s, times the sum of 1/(m r^2) [1/s].

@@ -1,6 +1,7 @@
 #pragma once
 // Tangential spring with history and Coulomb limit; spring_tangential.cpp has the paper.
 
+#include "sim/contact/laws/friction_limit.h"
 #include "sim/contact/laws/linear_formula.h"
 #include "sim/contact/laws/vector3.h"
 
@@ -33,21 +34,9 @@ SANDGLASS_LOOP Vector3<V> springForce(const SpringConstants<Constant>& c, const 
   V gamma = zero;
   if constexpr (dashpot == Dashpot::rate) gamma = c.damping * normal.damping + c.rate * mass;
   if constexpr (dashpot == Dashpot::coefficient) gamma = c.damping * normal.damping + c.gamma;
-  Vector3<V> f = times(-kt, turned);
-  if constexpr (dashpot != Dashpot::none) f = minus<A>(f, gamma, v);
-  const V f2 = dot<A>(f, f), limit = c.friction * normal.load;
-  const auto touches = A::above(overlap, zero), slides = A::above(f2, limit * limit);
-  V size;
-  const V scale = A::pick(slides, A::overRoot(limit, f2, size, A::both(touches, slides)), one);
-  f = times(scale, f);
-  if constexpr (dashpot == Dashpot::none) {
-    turned = times(scale, turned);
-  } else {
-    const V compliance = A::pick(A::above(kt, zero), A::over(one, kt), zero);
-    const Vector3<V> carrying = times(-compliance, plus<A>(f, gamma, v));
-    turned = {A::pick(slides, carrying.x, turned.x), A::pick(slides, carrying.y, turned.y),
-              A::pick(slides, carrying.z, turned.z)};
-  }
+  const auto touches = A::above(overlap, zero);
+  const Vector3<V> f =
+      withinLimit<A, dashpot != Dashpot::none>(touches, c.friction * normal.load, kt, gamma, v, turned);
   s = where<A>(touches, turned);
   return where<A>(touches, f);
 }

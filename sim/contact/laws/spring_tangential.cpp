@@ -2,8 +2,8 @@
 // The displacement s is kept as a vector: turned into the present tangent plane at unchanged length
 // (rotation = "turn") or projected on it ("project", which loses a little length as the contact rolls), then
 //   s += v_t dt,  F_t = -k_t s - gamma_t v_t,  |F_t| <= mu F_n,
-// and where the limit binds, s is set to what carries the limit force. The dashpot is a share of the normal
-// one (damping_ratio) or damping_rate times the reduced mass.
+// and where the limit binds, s is set to what carries the limit force beside the dashpot (withinLimit()). The
+// dashpot is a share of the normal one (damping_ratio) or damping_rate times the reduced mass.
 // k_t is a share of the normal stiffness: given ("spring"), or 4 G*/E* ("mindlin"), which with a Hertz
 // normal law is Mindlin's no-slip stiffness 8 G* sqrt(R overlap).
 
@@ -136,8 +136,16 @@ public:
 
 const ParameterSpec friction{"friction", ParameterType::number, "1", "Coulomb coefficient", {}, false, 0.0,
                              100.0};
-const ParameterSpec damping{
-    "damping_ratio", ParameterType::number, "1", "share of the normal dashpot", {}, true, 0.0, 100.0};
+ParameterSpec damping(const char* leftOut) {
+  return {"damping_ratio",
+          ParameterType::number,
+          "1",
+          std::string("share of the normal dashpot; without it and damping_rate ") + leftOut,
+          {},
+          true,
+          0.0,
+          100.0};
+}
 const ParameterSpec dampingRate{"damping_rate",
                                 ParameterType::number,
                                 "1/s",
@@ -177,7 +185,7 @@ LawKind springTangentialLaw() {
           LawRole::tangential,
           "tangential spring with history and Coulomb limit",
           false,
-          {friction, ratio, damping, dampingRate, rotation(), contactArm()},
+          {friction, ratio, damping("none"), dampingRate, rotation(), contactArm()},
           [](const LawContext& c) { return std::make_unique<SpringTangential>(c, false); }};
 }
 
@@ -186,7 +194,8 @@ LawKind mindlinTangentialLaw() {
           LawRole::tangential,
           "Mindlin's no-slip stiffness with Coulomb limit",
           true,
-          {friction, damping, dampingRate, rotation(), contactArm()},
+          {friction, damping("the root of tangential over normal stiffness"), dampingRate, rotation(),
+           contactArm()},
           [](const LawContext& c) { return std::make_unique<SpringTangential>(c, true); }};
 }
 

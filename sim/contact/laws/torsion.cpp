@@ -1,7 +1,7 @@
 // Resistance against spin about the contact normal, a couple M n on grain a and -M n on grain b. With the
 // relative spin w about the normal and a length l (given, or a share of the effective radius):
 //   constant_torque:  M = -l F_n sign(w), capped as the rolling law of that name is;
-//   elastic_plastic:  M = -k a - c w against the angle a of twist, |k a| <= l F_n, k = 2.25 k_n l^2, the
+//   elastic_plastic:  M = -k a - c w against the angle a of twist, |M| <= l F_n, k = 2.25 k_n l^2, the
 //   dashpot
 //                     a share of critical damping; the rule of Jiang, Yu, Harris, Comput. Geotech. 32, 340
 //                     (2005), carried over from rolling (Luding, Granular Matter 10, 235 (2008), treats both
@@ -91,14 +91,14 @@ public:
       const Real length = c.length + c.coefficient * b.effectiveRadius[i];
       const Real k = Real(2.25) * b.stiffness[i] * length * length;
       const Real limit = length * b.contactForce[i];
+      const Real dashpot = 2 * c.damping * std::sqrt(k / inverseInertia(b, i));
       const Real twist = angle[i] + w * b.dt;
-      const Real elastic = k * std::abs(twist);
-      const bool yields = elastic > limit;
-      const Real kept = twist * (yields ? limit / elastic : Real(1));
-      const Real dashpot = yields ? Real(0) : 2 * c.damping * std::sqrt(k / inverseInertia(b, i));
-      const bool touches = b.overlap[i] > 0;
-      const Real M = touches ? -k * kept - dashpot * w : Real(0);
-      angle[i] = touches ? kept : Real(0);
+      const Real free = -k * twist - dashpot * w;
+      const bool yields = std::abs(free) > limit, touches = b.overlap[i] > 0;
+      const Real M = touches ? (yields ? std::copysign(limit, free) : free) : Real(0);
+      // As withinLimit() has it for vectors.
+      const Real ofSpring = M + dashpot * w, kept = ofSpring * M > 0 ? -ofSpring / k : Real(0);
+      angle[i] = touches ? (yields ? kept : twist) : Real(0);
       b.mx[i] += M * b.nx[i];
       b.my[i] += M * b.ny[i];
       b.mz[i] += M * b.nz[i];

@@ -17,6 +17,12 @@ void DemSolver::checkOverlap(const DeepestOverlap& deepest) const {
                                "kept; make the mesh coarser or raise its smooth_angle",
                                time(), step_, deepest.idA, walls_[deepest.wall].name,
                                walls_[deepest.wall].shape->mostTouches()));
+  if (deepest.share == DeepestOverlap::passing)
+    throw RunError(fmt::format(
+        "at {:.6g} s (step {}) grain {} overlaps the wall '{}' by more than {:.0f} % of its "
+        "radius, whatever maximum_overlap allows grains: once its centre has passed, the wall "
+        "would push it out on the other side; stiffen the contact or lower the speeds",
+        time(), step_, deepest.idA, walls_[deepest.wall].name, 100 * DeepestOverlap::aboutToPass));
   const std::string partner = deepest.idB >= 0 ? fmt::format("grain {}", deepest.idB)
                                                : fmt::format("wall '{}'", walls_[deepest.wall].name);
   throw RunError(fmt::format(

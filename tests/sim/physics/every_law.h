@@ -45,7 +45,7 @@ inline Parameters usual(const LawKind& kind, int variant) {
     offer("cutoff", 1e-4);
   }
   for (const ParameterSpec& spec : kind.parameters)
-    if (spec.name == "charges") p.set("charges", std::vector<double>{2e-12, -1e-12});
+    if (spec.name == "charges") p.set("charges", std::vector<double>{2e-12, 2e-12});
   return p;
 }
 

@@ -1,6 +1,7 @@
 // Friction, rolling and torsion: closed forms under prescribed motion, and two-body numbers of the 1998
 // source.
 
+#include "sim/base/random.h"
 #include "tests/sim/physics/one_contact.h"
 
 #include <catch2/catch.hpp>
@@ -173,6 +174,97 @@ TEST_CASE("a tangential dashpot by rate, and a spring that is projected instead 
           Approx(std::string(rotation) == "turn" ? before : before * std::cos(angle)).epsilon(1e-12));
     CHECK(d.b.ftx[0] * d.b.nx[0] + d.b.fty[0] * d.b.ny[0] == Approx(0).margin(1e-15));
   }
+}
+
+TEST_CASE(
+    "spring and dashpot of friction stay within the limit and store no energy that slip did not bring") {
+  // Random slips of a contact held at one overlap. The energy that a dashpot holds is nobody's: what is
+  // stored may rise by no more than the work of the slip.
+  for (const char* law :
+       {R"({ law = "spring", friction = 0.5 })", R"({ law = "spring", friction = 0.5, damping_ratio = 1.0 })",
+        R"({ law = "spring", friction = 0.5, damping_ratio = 100.0 })",
+        R"({ law = "spring", friction = 0.5, damping_rate = "1e5 1/s" })",
+        R"({ law = "spring", friction = 0.5, damping_rate = "1e7 1/s", rotation = "project" })",
+        R"({ law = "mindlin", friction = 0.5 })"}) {
+    SceneText t;
+    t.elasticity = "youngs_modulus = \"20 MPa\"\npoisson_ratio = 0.25";
+    t.normal = std::string(law).find("mindlin") == std::string::npos
+                   ? R"({ law = "linear", stiffness = "1000 N/m", restitution = 0.5 })"
+                   : R"({ law = "hertz", restitution = 0.5 })";
+    t.tangential = law;
+    const LawStack laws(t.scene());
+    OneContact c(laws, 1e-8);
+    c.step(1e-4);
+    const double start = c.stored();
+    double work = 0, storedMost = 0;
+    RandomStream random(11, RandomPurpose::test, 0);
+    INFO(law);
+    for (int k = 0; k < 200; ++k) {
+      const double size = 0.3 * random.uniform();
+      const Vec3 v = size * random.direction();
+      for (int i = 0; i < 1000; ++i) {
+        c.b.vtz[0] = v.z();
+        c.step(1e-4, v.y());
+        const double force = std::hypot(c.b.fty[0], c.b.ftz[0]);
+        REQUIRE(force <= 0.5 * c.b.contactForce[0] * (1 + 1e-12));
+        work -= (c.b.fty[0] * v.y() + c.b.ftz[0] * v.z()) * c.b.dt;
+        storedMost = std::max(storedMost, c.stored() - start);
+        REQUIRE(c.stored() - start <= work * (1 + 1e-3) + 1e-12);
+      }
+    }
+    CHECK(storedMost > 0);
+  }
+}
+
+TEST_CASE("a sliding sphere is slowed by mu g, however strong the dashpot of its friction") {
+  const double friction = 0.5, mass = 4.0 / 3.0 * pi * 1e-9 * 2500.0, depth = mass * 9.81 / 1000;
+  for (const char* dashpot : {"damping_ratio = 0.0", "damping_ratio = 1.0", "damping_ratio = 100.0",
+                              R"(damping_rate = "1e5 1/s")", R"(damping_rate = "1e7 1/s")"}) {
+    SceneText t;
+    t.gravity = R"(["0", "0", "-9.81 m/s^2"])";
+    t.normal = R"({ law = "linear", stiffness = "1000 N/m", restitution = 0.5 })";
+    t.tangential = fmt::format(R"({{ law = "spring", friction = {}, {} }})", friction, dashpot);
+    t.walls = "[[wall]]\nname = \"floor\"\nkind = \"plane\"\nmaterial = \"wall\"\npoint = [\"0 m\", \"0 m\", "
+              "\"0 m\"]\nnormal = [0, 0, 1]\n";
+    DemSolver solver(t.scene(), {1});
+    solver.add({grain(0, {0, 0, 1e-3 - depth}, {0.2, 0, 0})});
+    const double before = solver.energies().total();
+    // It rolls from 2/7 v / (mu g) = 11.7 ms on.
+    solver.advance(std::lround(8e-3 / solver.stepSize()));
+    INFO(dashpot);
+    CHECK(solver.present()[0].velocity.x() == Approx(0.2 - friction * 9.81 * solver.time()).epsilon(1e-3));
+    solver.advance(std::lround(22e-3 / solver.stepSize()));
+    CHECK(solver.present()[0].velocity.x() == Approx(0.2 * 5 / 7).epsilon(2e-3));
+    CHECK(solver.energies().total() < before);
+  }
+}
+
+TEST_CASE("resistance to rolling and torsion takes no more than its limit in one bounce") {
+  // A spinning sphere falls on a plane: the couple is at most l F_n, so the spin loses at most l (1 + e) m v
+  // / I.
+  const double mass = 4.0 / 3.0 * pi * 1e-9 * 2500.0, inertia = 0.4 * mass * 1e-6, length = 0.02e-3;
+  const double most = length * (1 + 0.8) * mass * 0.1 / inertia;
+  for (const char* role : {"rolling", "torsion"})
+    for (const double damping : {0.0, 1.0}) {
+      SceneText t;
+      t.normal = R"({ law = "linear", stiffness = "1000 N/m", restitution = 0.8 })";
+      const std::string law =
+          fmt::format(R"({{ law = "elastic_plastic", length = "0.02 mm", damping = {} }})", damping);
+      const bool rolling = role == std::string("rolling");
+      t.rolling = rolling ? law : "{ law = \"none\" }\ntorsion = " + law;
+      t.walls =
+          "[[wall]]\nname = \"floor\"\nkind = \"plane\"\nmaterial = \"wall\"\npoint = [\"0 m\", \"0 m\", "
+          "\"0 m\"]\nnormal = [0, 0, 1]\n";
+      DemSolver solver(t.scene(), {1});
+      solver.add({grain(0, {0, 0, 1.001e-3}, {0, 0, -0.1}, rolling ? Vec3(100, 0, 0) : Vec3(0, 0, 100))});
+      while (solver.present()[0].position.z() < 1.001e-3 || solver.present()[0].velocity.z() < 0)
+        solver.advance(10);
+      const double lost = 100 - solver.present()[0].spin.norm();
+      INFO(role << " damping " << damping);
+      CHECK(lost > 0);
+      CHECK(lost <= most * (1 + 0.01)); // 50 steps per contact take 0.5 % more from the normal force
+      if (damping > 0) CHECK(lost > 0.9 * most);
+    }
 }
 
 TEST_CASE("a constant rolling couple slows a spin by its law and never turns it round") {

@@ -18,6 +18,20 @@ LawStack withGap(const std::string& law) {
   return LawStack(t.scene());
 }
 
+/// Charged glass and an uncharged other material, named in this order.
+LawStack charged(const std::string& first, const std::string& second) {
+  SceneText t;
+  t.rolling = R"({ law = "none" }
+gap = [{ law = "coulomb", charges = ["1e-14 C", "1e-14 C"], smallest_separation = "0.1 um", cutoff = "1 mm" }])";
+  std::string text = t.text();
+  const std::string names = R"(between = ["glass", "wall"])", same = R"(["1e-14 C", "1e-14 C"])";
+  const std::string charges = first == "wall" ? R"(["0 C", "1e-14 C"])" : R"(["1e-14 C", "0 C"])";
+  const auto at = text.find(names);
+  text.replace(text.find(same, at), same.size(), charges);
+  text.replace(at, names.size(), fmt::format(R"(between = ["{}", "{}"])", first, second));
+  return LawStack(parseScene(text, "test"));
+}
+
 /// Work of the normal force on the way from gap `from` to gap `to`, against the change of stored energy.
 void checkEnergy(const LawStack& laws, double radius, double from, double to) {
   OneContact c(laws, 1e-6, radius);
@@ -60,10 +74,10 @@ TEST_CASE("V18: van der Waals force of two spheres of 50 um at 0.4 nm") {
 }
 
 TEST_CASE("V19: a charged sphere of 50 um beside an uncharged one, 1 um apart") {
-  const LawStack laws =
-      withGap(R"({ law = "coulomb", charges = ["1e-14 C", "0 C"], smallest_separation = "0.1 um", )"
-              R"(cutoff = "1 mm" })");
+  const LawStack laws = charged("glass", "wall");
   OneContact c(laws, 1e-6, 50e-6);
+  c.b.oneType = false;
+  c.b.type[0] = laws.typeOf(0, 1); // of grains, as both have mass
   c.step(-1e-6);
   CHECK(-c.normal() == Approx(2.202e-7).epsilon(5e-4));
   c.step(-1.001e-3);
@@ -84,24 +98,26 @@ TEST_CASE("two charged spheres far apart act on each other as Coulomb's law has 
 }
 
 TEST_CASE("charges follow the order in which the scene names the materials") {
-  SceneText t;
-  t.rolling = R"({ law = "none" }
-gap = [{ law = "coulomb", charges = ["1e-14 C", "0 C"], smallest_separation = "0.1 um", cutoff = "1 mm" }])";
-  std::string text = t.text();
-  const auto at = text.find(R"(between = ["glass", "wall"])");
-  text.replace(at, 27, R"(between = ["wall", "glass"])");
-  const LawStack laws(parseScene(text, "test"));
-  OneContact c(laws, 1e-6, 50e-6);
-  c.b.oneType = false;
-  c.b.type[0] = laws.typeOf(0, 1); // grain of glass at the wall: here the grain is the uncharged one
-  c.b.radiusB[0] = 1.0;
-  c.b.inverseMassB[0] = 0.0;
-  c.step(-1e-6);
-  CHECK(c.normal() == 0.0);
-  c.b.type[0] = laws.typeOf(1, 0);
-  c.step(-1e-6);
-  CHECK(-c.normal() ==
-        Approx(1e-28 / (16 * std::numbers::pi * 8.8541878128e-12 * 1e-12)).epsilon(1e-9)); // plane
+  for (const char* first : {"glass", "wall"}) {
+    const LawStack laws = charged(first, first == std::string("glass") ? "wall" : "glass");
+    OneContact c(laws, 1e-6, 50e-6);
+    c.b.oneType = false;
+    c.b.radiusB[0] = 1.0;
+    c.b.inverseMassB[0] = 0.0;
+    c.b.type[0] = laws.typeOf(0, 1); // charged glass at a wall
+    c.step(-1e-6);
+    CHECK(-c.normal() ==
+          Approx(1e-28 / (16 * std::numbers::pi * 8.8541878128e-12 * 1e-12)).epsilon(1e-9)); // plane
+    c.b.type[0] = laws.typeOf(1, 0); // an uncharged grain at a wall of glass
+    c.step(-1e-6);
+    CHECK(c.normal() == 0.0);
+  }
+}
+
+TEST_CASE("a material has one charge in all its contacts") {
+  CHECK_THROWS_WITH(withGap(R"({ law = "coulomb", charges = ["1e-14 C", "0 C"], cutoff = "1 mm", )"
+                            R"(smallest_separation = "0.1 um" })"),
+                    Catch::Contains("the material 'glass' the charges 1e-14 C and 0 C"));
 }
 
 TEST_CASE("two grains drawn together by van der Waals forces keep their energy") {

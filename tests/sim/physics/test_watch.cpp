@@ -122,6 +122,20 @@ TEST_CASE("deep overlap, runaway speed, escape and not-a-number stop the run wit
         {grain(5, {0, 0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0, 0}), grain(6, {0.1, 0, 0})});
     CHECK_THROWS_WITH(solver.advance(1), Catch::Contains("grain 5 is not a number"));
   }
+  // Through a box wall a grain would come out on the other side; a plane pushes it back from any depth.
+  t.maximumOverlap = 3;
+  const auto fall = [&](const std::string& wall) {
+    t.walls = "[[wall]]\nname = \"floor\"\nmaterial = \"wall\"\n" + wall;
+    DemSolver solver(t.scene(), {1});
+    solver.add({grain(5, {0, 0, 1.1e-3}, {0, 0, -20})});
+    while (solver.present()[0].position.z() > -5e-3 && solver.present()[0].velocity.z() < 0)
+      solver.advance(1);
+    return solver.present()[0].velocity.z();
+  };
+  CHECK(fall("kind = \"plane\"\npoint = [\"0 m\", \"0 m\", \"0 m\"]\nnormal = [0, 0, 1]\n") > 0);
+  CHECK_THROWS_WITH(fall("kind = \"box\"\nlower = [\"-5 mm\", \"-5 mm\", \"0 m\"]\n"
+                         "upper = [\"5 mm\", \"5 mm\", \"10 mm\"]\n"),
+                    Catch::Contains("overlaps the wall 'floor' by more than 90 %"));
 }
 
 TEST_CASE("a fast listed grain shortens the step of a Hertzian scene") {
