@@ -23,8 +23,8 @@ struct PairType {
   /// they differ.
   double uniformMass = 0;
   double largestEffectiveRadius = 0; ///< [m] of two of the largest grains, or of one at a wall
-  std::string materialA, materialB; ///< names
-  bool swapped = false;             ///< the scene names the two materials in the other order
+  std::string materialA, materialB;  ///< names
+  bool swapped = false;              ///< the scene names the two materials in the other order
   double effectiveYoungsModulus = 0; ///< [Pa], 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; 0 when not given
   double effectiveShearModulus = 0;  ///< [Pa], 1/G* = (2-nu1)/G1 + (2-nu2)/G2
 };
@@ -85,6 +85,10 @@ public:
   virtual double collisionTime(int type, double reducedMass, double effectiveRadius, double speed) const {
     return std::numeric_limits<double>::infinity();
   }
+
+  /// What the cut-off of a force across a gap leaves out between two alike grains of this effective radius
+  /// [m], or between a grain of this radius and a wall; empty for laws without a cut-off.
+  virtual std::string truncation(int type, double effectiveRadius, bool wall) const { return {}; }
 
   /// Called after the force loop, in pair order, for events that apply() raised and for live pairs that are
   /// torn away (a grain leaves the run). May move grain quantities and set the pair's history.

@@ -96,6 +96,26 @@ public:
     return direct - c.imageA * image(rb, wall) - (wall ? 0.0 : c.imageB * image(ra, false));
   }
 
+  std::string truncation(int type, double radius, bool wall) const override {
+    const auto& c = table_[type];
+    const double R = 2.0 * radius; // of either grain
+    const auto image = [&](double z) {
+      return wall ? c.imageA / (z * z)
+                  : (c.imageA + c.imageB) / (z * z) * (1.0 - z / std::sqrt(R * R + z * z));
+    };
+    std::string text;
+    if (image(c.smallest) > 0.0)
+      text = fmt::format("image force of up to {:.3g} N, of which the cut-off at {:.3g} m leaves out up to "
+                         "{:.2g} %",
+                         image(c.smallest), c.cutoff, 100 * image(c.cutoff) / image(c.smallest));
+    if (!wall && c.direct != 0.0) {
+      const auto direct = [&](double z) { return std::abs(c.direct) / ((2 * R + z) * (2 * R + z)); };
+      text += fmt::format("; direct force of up to {:.3g} N, of which it leaves out up to {:.2g} %",
+                          direct(0.0), 100 * direct(c.cutoff) / direct(0.0));
+    }
+    return text;
+  }
+
   template <class Real> struct Constants {
     Real imageA = 0, imageB = 0; ///< [N m^2] charge of a before b, of b before a
     Real direct = 0;             ///< [N m^2]

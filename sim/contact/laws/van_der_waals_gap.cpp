@@ -10,9 +10,12 @@
 #include "sim/contact/law_loop.h"
 #include "sim/contact/laws/laws.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace sandglass {
 
@@ -54,6 +57,15 @@ public:
     const double strength = c.strength * b.effectiveRadius[i];
     const double inside = z + b.overlap[i]; // how far below the smallest separation
     return -strength * (1.0 / z - 1.0 / c.cutoff) - strength / (z * z) * inside;
+  }
+
+  std::string truncation(int type, double radius, bool) const override {
+    const auto& c = table_[type];
+    const double share = c.smallest / c.cutoff;
+    return fmt::format("up to {:.3g} N; the cut-off at {:.3g} m leaves out forces of up to {:.2g} % of that "
+                       "and {:.2g} % of the work of separation",
+                       c.strength * radius / (c.smallest * c.smallest), c.cutoff, 100 * share * share,
+                       100 * share);
   }
 
   template <class Real> struct Constants {

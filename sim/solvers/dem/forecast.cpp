@@ -59,6 +59,25 @@ Trial tryOut(const Scene& scene) {
   return {spent.count() / (static_cast<double>(seeds.size()) * steps), solver.bytesPerGrain()};
 }
 
+/// What the cut-offs of forces across gaps leave out, one sentence for each law and two materials that meet.
+void tellCutOffs(const Scene& scene, const LawStack& laws, std::vector<std::string>& lines) {
+  const auto grains = [&](int material) {
+    return std::any_of(scene.species.begin(), scene.species.end(),
+                       [&](const Species& s) { return s.material == scene.materials[material].name; });
+  };
+  for (const auto& entry : laws.entries())
+    for (int a = 0; a < laws.materials(); ++a)
+      for (int b = 0; b < laws.materials(); ++b) {
+        const int type = laws.typeOf(a, b);
+        const PairType& pair = laws.context().types[type];
+        if (!pair.used || !grains(a) || (grains(b) && b < a)) continue; // the grain comes first
+        const std::string text = entry.law->truncation(type, pair.largestEffectiveRadius, !grains(b));
+        if (!text.empty())
+          lines.push_back(
+              fmt::format("{} of {} on {}: {}", entry.name, pair.materialA, pair.materialB, text));
+      }
+}
+
 } // namespace
 
 Forecast forecast(const Scene& scene) {
@@ -76,8 +95,9 @@ Forecast forecast(const Scene& scene) {
                                      kind ? kind->description : "a law of the program",
                                      8 * entry.law->historySize()));
   }
-  for (const std::string& line : restitutionReport(scene, impactSpeed(scene)))
+  for (const std::string& line : restitutionReport(scene, impactSpeed(scene), f.step.step))
     f.modelled.push_back(line);
+  tellCutOffs(scene, laws, f.modelled);
   const bool periodic = scene.domain.periodic[0] || scene.domain.periodic[1] || scene.domain.periodic[2];
   const auto tell = [&](bool used, const std::string& feature, const std::string& cost) {
     (used ? f.modelled : f.notModelled).push_back(used ? feature + "; " + cost : feature);

@@ -136,3 +136,28 @@ TEST_CASE("two grains drawn together by van der Waals forces keep their energy")
     CHECK(solver.energies().total() == Approx(start).margin(1e-3 * moving));
   }
 }
+
+TEST_CASE("gap laws say what their cut-offs leave out, as their forces have it") {
+  const LawStack attraction = withGap(R"({ law = "van_der_waals", lifshitz_constant = "1e-19 J" })");
+  // Left out of the work of separation: from the cut-off on, over all of it; 1 / cutoff over 1 / smallest.
+  CHECK_THAT(attraction.entries().back().law->truncation(0, 25e-6, false),
+             Catch::Contains("up to 6.22e-07 N") && Catch::Contains("at 4e-08 m") &&
+                 Catch::Contains("0.01 % of that and 1 % of the work"));
+  const LawStack charges = charged("glass", "wall");
+  const int same = charges.typeOf(0, 0), wall = charges.typeOf(0, 1);
+  const auto& law = *charges.entries().back().law;
+  OneContact c(charges, 1e-6, 50e-6);
+  const auto force = [&](double z) {
+    c.step(-z);
+    return c.normal();
+  };
+  // Image and direct force apart: q^2 / (4 pi eps r^2) of 1e-14 C at 100 um and at 1.1 mm.
+  const double direct = 8.9875518e9 * 1e-28 / 1e-8;
+  CHECK_THAT(law.truncation(same, 25e-6, false),
+             Catch::Contains(
+                 fmt::format("image force of up to {:.3g} N",
+                             8.9875518e9 * 1e-28 / 1.001001e-8 * 1.001001e-8 / 1.002001e-8 - force(1e-7))) &&
+                 Catch::Contains(fmt::format("direct force of up to {:.3g} N", direct)) &&
+                 Catch::Contains("0.83 %"));
+  CHECK_THAT(law.truncation(wall, 50e-6, true), !Catch::Contains("direct"));
+}

@@ -110,3 +110,32 @@ TEST_CASE("the report of a scene names the restitution with and without the clam
   CHECK_THAT(lines[0], Catch::Contains("glass on glass") && Catch::Contains("attraction cut off"));
   CHECK_THAT(lines[1], Catch::Contains("glass on wall"));
 }
+
+TEST_CASE("the report says what the step of a run makes of restitution, as the solver does") {
+  SceneText t;
+  t.normal = R"({ law = "linear", stiffness = "1000 N/m", restitution = 0.1 })";
+  const LawStack laws(t.scene());
+  for (const double share : {0.125, 0.04, 0.004}) { // of a collision
+    const double step = share * laws.entries()[0].law->collisionTime(0, mass, radius, 0.2);
+    const auto [least, most] = restitutionAtStep(laws, 0, mass, radius, 0.2, step);
+    CAPTURE(share, least, most);
+    SceneText run = t;
+    run.stepsPerContact = 1.0 / share;
+    for (const double phase : {0.1, 0.4, 0.8}) { // two grains in the program itself
+      DemSolver solver(run.scene(), {1});
+      const double gap = 0.1 * solver.stepSize() * (3 + phase);
+      solver.add({grain(0, {1e-3 + gap, 0, 0}, {-0.1, 0, 0}), grain(1, {-1e-3 - gap, 0, 0}, {0.1, 0, 0})});
+      solver.advance(static_cast<int>(40.0 / share));
+      const double e = solver.present()[0].velocity.x() / 0.1;
+      CHECK(e ==
+            Approx(headOnRestitution(laws, 0, mass, radius, 0.2, solver.stepSize(), phase)).margin(1e-9));
+      CHECK(e > least - 0.01 * (most - least) - 0.1 * share);
+      CHECK(e < most + 0.01 * (most - least) + 0.1 * share);
+    }
+    CHECK(std::max(most - 0.1, 0.1 - least) > 0.5 * 0.02 * share / 0.04); // first order
+  }
+  const auto coarse = restitutionReport(t.scene(), 0.2, 0.2 * 2.3e-4),
+             none = restitutionReport(t.scene(), 0.2);
+  CHECK_THAT(coarse[0], Catch::Contains("with the step of this scene") && Catch::Contains("a smaller step"));
+  CHECK_THAT(none[0], !Catch::Contains("with the step"));
+}
